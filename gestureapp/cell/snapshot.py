@@ -1,0 +1,117 @@
+"""Everything the window shows, frozen, at one moment. The whole seam between engine and window."""
+
+from dataclasses import dataclass
+from enum import Enum
+
+from gestureapp.recognition.values import Recognition
+from gestureapp.robot.values import Direction, Pose, PoseIncrement, RobotStatus
+from gestureapp.sensing.values import ArmPosture, StreamHealth
+
+
+class CellState(Enum):
+    """The states of the cell; the value is the word on the screen."""
+
+    NOT_READY = "NOT READY"
+    READY = "READY"
+    ARMED = "ARMED"
+    ACTIVATED = "ACTIVATED"
+    MOVING = "MOVING"
+    STOPPING = "STOPPING"
+    STOPPED = "STOPPED"
+
+
+@dataclass(frozen=True, slots=True)
+class Blocker:
+    """One thing that stands against arming.
+
+    Attributes:
+        id: Stable word, ``left_sensor``.
+        text: What is wrong, with the measured value.
+        remedy: What to do about it.
+    """
+
+    id: str
+    text: str
+    remedy: str
+
+
+@dataclass(frozen=True, slots=True)
+class EventLine:
+    """One line of the cell's story for a person. ``t_s`` monotonic, ``wall_s`` since the epoch."""
+
+    t_s: float
+    wall_s: float
+    text: str
+    is_alarm: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class RobotView:
+    """The robot as last heard.
+
+    Attributes:
+        is_connected: The exchange with the controller is open.
+        text: One line on the link: address, or why there is none.
+        status: Last RSTATS, or None.
+        pose: Last RPOSC, or None.
+        pose_age_s: How old that is; infinite before the first.
+        increment: The move under way or the last one, or None.
+        start: Where that move began, or None.
+        limited_by: What ends it, in words.
+        speed: Its speed with unit, ``100.0 mm/s``.
+    """
+
+    is_connected: bool
+    text: str
+    status: RobotStatus | None = None
+    pose: Pose | None = None
+    pose_age_s: float = float("inf")
+    increment: PoseIncrement | None = None
+    start: Pose | None = None
+    limited_by: str = ""
+    speed: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Snapshot:
+    """The cell at one moment.
+
+    Attributes:
+        t_s: When it was taken, monotonic clock.
+        state: The one word.
+        sentence: What to do next, or why it stopped.
+        blockers: What stands against arming; empty when ready.
+        can_arm: Arming would be taken now.
+        is_stop_unconfirmed: The robot has not confirmed a stop in time: the red bar and the sound.
+        left: Health of the left stream.
+        right: Health of the right stream.
+        posture: What the left arm says.
+        trip_level_s: The watchdog's limit on ``left.age_s``.
+        recognition: The last one, or None.
+        direction: What the last recognised gesture asks of the robot, or None.
+        robot: The robot as last heard.
+        events: The last lines, newest last.
+        is_simulation: No real robot can be reached.
+        recording: Where the session is recorded, or why it is not.
+        person: Whose arms.
+        model: Which model, in words.
+    """
+
+    t_s: float
+    state: CellState
+    sentence: str
+    blockers: tuple[Blocker, ...]
+    can_arm: bool
+    is_stop_unconfirmed: bool
+    left: StreamHealth
+    right: StreamHealth
+    posture: ArmPosture
+    trip_level_s: float
+    recognition: Recognition | None
+    direction: Direction | None
+    robot: RobotView
+    events: tuple[EventLine, ...]
+    is_simulation: bool
+    recording: str
+    person: str
+    model: str

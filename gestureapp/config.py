@@ -1,0 +1,131 @@
+"""Settings: frozen, typed, with unit suffixes and the reason beside each default.
+
+Nothing below the entry points reads files or the environment; they get these values.
+"""
+
+from dataclasses import dataclass, field
+from enum import Enum
+from pathlib import Path
+
+SCHEMA_VERSION = 1
+
+
+class DriveMode(Enum):
+    """What ends a move before the edge of the field."""
+
+    HOLD_TO_RUN = "hold_to_run"
+    """The robot moves only while the left arm holds the start posture."""
+    START_STOP = "start_stop"
+    """The paper's: it stops on the stop posture."""
+
+
+@dataclass(frozen=True, slots=True)
+class SensorSettings:
+    """One sensor: where it is and how its readings become g.
+
+    Attributes:
+        port: Anything ``serial.serial_for_url`` opens: a device, ``socket://HOST:PORT``, ``loop://``.
+        protocol: Name of a decoder.
+        offset: Reading at zero g per axis, in g of the nominal scale.
+        gain: Factor per axis after the offset; 1 is the nominal sensitivity.
+    """
+
+    port: str = ""
+    protocol: str = "csv"
+    offset: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    gain: tuple[float, float, float] = (1.0, 1.0, 1.0)
+
+
+@dataclass(frozen=True, slots=True)
+class SiteSettings:
+    """What the cell's integrator decides.
+
+    Attributes:
+        drive_mode: What ends a move.
+        trip_level_s: Left sensor silent longer than this stops the robot; 0.05 to 0.3, never off.
+        control_limit_s: Control thread silent longer than this stops the robot.
+        gui_limit_s: Window frozen longer than this stops the robot: STOP could not be pressed.
+        stop_on_right_lost: Whether losing the right sensor stops a running move.
+        rate_min_hz: Slowest stream that may be armed.
+        rate_max_hz: Fastest stream that may be armed.
+        posture_enter_deg: The left arm is in a posture within this angle of it.
+        posture_leave_deg: It stays so up to this angle (hysteresis).
+        posture_debounce: Samples in a row that a new posture must show.
+        stop_seen_s: How long the stop posture must have been seen before arming.
+    """
+
+    drive_mode: DriveMode = DriveMode.HOLD_TO_RUN
+    trip_level_s: float = 0.1
+    control_limit_s: float = 0.2
+    gui_limit_s: float = 0.5
+    stop_on_right_lost: bool = True
+    rate_min_hz: float = 70.0
+    rate_max_hz: float = 230.0
+    posture_enter_deg: float = 25.0
+    posture_leave_deg: float = 40.0
+    posture_debounce: int = 3
+    stop_seen_s: float = 0.5
+
+
+@dataclass(frozen=True, slots=True)
+class RobotSettings:
+    """The robot, its field of operation and its speeds.
+
+    The field: two spheres around the robot frame's origin (paper, equation 1), and a range for each
+    angle. The defaults suit an HP6 without a tool: the wrist cannot be farther than 1378.5 mm from the
+    origin (150 + 570 + sqrt(155^2 + 640^2), its link lengths), and close to the column it folds up.
+
+    Attributes:
+        host: Address of the NX100; empty when there is none.
+        port: TCP port of its Ethernet server function.
+        ext_radius_mm: Outer sphere.
+        int_radius_mm: Inner sphere.
+        margin_mm: How far before the boundary an increment ends.
+        speed_mm_s: Speed of a translation; at most 250.
+        speed_deg_s: Speed of a rotation; at most 30.
+        rx_range_deg: Lowest and highest Rx; may pass 180, as a tool that points down reads Rx = 180.
+        ry_range_deg: Lowest and highest Ry.
+        rz_range_deg: Lowest and highest Rz.
+        margin_deg: How far before the end of a range a rotation ends.
+        frame: Coordinate frame of the increment: 0 base, 1 robot, 2 to 25 user 1 to 24.
+        tool: Tool number, 0 to 23.
+    """
+
+    host: str = ""
+    port: int = 80
+    ext_radius_mm: float = 1200.0
+    int_radius_mm: float = 500.0
+    margin_mm: float = 20.0
+    speed_mm_s: float = 100.0
+    speed_deg_s: float = 10.0
+    rx_range_deg: tuple[float, float] = (120.0, 240.0)
+    ry_range_deg: tuple[float, float] = (-60.0, 60.0)
+    rz_range_deg: tuple[float, float] = (-90.0, 90.0)
+    margin_deg: float = 2.0
+    frame: int = 1
+    tool: int = 0
+
+
+@dataclass(frozen=True, slots=True)
+class PersonSettings:
+    """Whose arms these are.
+
+    Attributes:
+        name: As shown in the window.
+        model: The person's model file; None when there is none yet.
+    """
+
+    name: str = ""
+    model: Path | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Settings:
+    """Everything the cell is started with."""
+
+    left: SensorSettings = field(default_factory=SensorSettings)
+    right: SensorSettings = field(default_factory=SensorSettings)
+    site: SiteSettings = field(default_factory=SiteSettings)
+    robot: RobotSettings = field(default_factory=RobotSettings)
+    person: PersonSettings = field(default_factory=PersonSettings)
+    is_simulation: bool = False

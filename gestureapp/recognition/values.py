@@ -1,0 +1,63 @@
+"""What a recogniser takes and gives."""
+
+from dataclasses import dataclass
+from typing import Protocol
+
+
+@dataclass(frozen=True, slots=True)
+class Candidate:
+    """A gesture and how sure the recogniser is of it, 0 to 1."""
+
+    label: str
+    confidence: float
+
+
+@dataclass(frozen=True, slots=True)
+class Recognition:
+    """What was made of one activation.
+
+    Attributes:
+        activation_id: Which activation it answers.
+        label: The gesture, or None for "not recognised".
+        reason: Empty with a label; else why nothing was recognised, in words.
+        outputs: All candidates in the order of the model's labels; empty when no network was asked.
+        window_start_s: Receive time of the first sample used.
+        window_end_s: Receive time of the last sample used.
+        decided_s: When the answer was there, monotonic clock.
+    """
+
+    activation_id: int
+    label: str | None
+    reason: str
+    outputs: tuple[Candidate, ...]
+    window_start_s: float
+    window_end_s: float
+    decided_s: float
+
+    @property
+    def best(self) -> tuple[Candidate, ...]:
+        """The two most likely candidates, likeliest first."""
+        return tuple(sorted(self.outputs, key=lambda c: c.confidence, reverse=True)[:2])
+
+
+class Recogniser(Protocol):
+    """Follows the right arm; answers once per activation. Pure: time and samples come in."""
+
+    @property
+    def labels(self) -> tuple[str, ...]:
+        """The gestures it can tell apart, in the order of its outputs."""
+
+    def activate(self, activation_id: int, t_s: float) -> None:
+        """The left arm has started at this time: an answer is wanted."""
+
+    def cancel(self) -> None:
+        """No answer is wanted any more."""
+
+    def feed(self, t_s: float, accel_g: tuple[float, float, float]) -> Recognition | None:
+        """Take a sample of the right arm; the answer, once it is there.
+
+        Every sample is fed, also while nobody is activated, so that history is at hand.
+        """
+
+    def check(self, t_s: float) -> Recognition | None:
+        """Give up when the samples needed did not come in time."""

@@ -1,0 +1,1 @@
+"""Serial bytes to decoded, calibrated, time-stamped samples."""

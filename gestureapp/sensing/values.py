@@ -1,0 +1,121 @@
+"""What sensing hands on: frames and garbage from a decoder, samples and health from a stream."""
+
+from dataclasses import dataclass
+from enum import Enum
+
+
+class Side(Enum):
+    """Which arm a sensor is worn on."""
+
+    LEFT = "left"
+    RIGHT = "right"
+
+
+@dataclass(frozen=True, slots=True)
+class Frame:
+    """One packet on the wire, as sent.
+
+    Attributes:
+        counter: The running number that the sensor put into it, or None where the protocol has none.
+        raw: x, y, z in the protocol's own unit (g for ``csv``, counts for ``adxl330``).
+    """
+
+    counter: int | None
+    raw: tuple[float, float, float]
+
+
+@dataclass(frozen=True, slots=True)
+class Garbage:
+    """Bytes that were no frame.
+
+    Attributes:
+        n_bytes: How many bytes were dropped.
+        first_bytes: The first of them, at most 32.
+        reason: What was expected instead, in words.
+    """
+
+    n_bytes: int
+    first_bytes: bytes
+    reason: str
+
+
+@dataclass(frozen=True, slots=True)
+class CounterGap:
+    """The running number jumped: frames were lost on the way. ``missed`` says how many."""
+
+    missed: int
+
+
+DecoderEvent = Frame | Garbage | CounterGap
+
+
+@dataclass(frozen=True, slots=True)
+class Sample:
+    """One calibrated reading.
+
+    Attributes:
+        t_s: Receive time on the monotonic clock, taken at the read.
+        seq: Our own running number within the stream, from 0, without gaps.
+        accel_g: Specific force x, y, z in g; a level sensor at rest reads (0, 0, 1).
+        counter: The sensor's running number, or None.
+    """
+
+    t_s: float
+    seq: int
+    accel_g: tuple[float, float, float]
+    counter: int | None = None
+
+
+class LinkState(Enum):
+    """The four states of a sensor that must be told apart."""
+
+    NOT_CONNECTED = "not connected"
+    NO_DATA = "connected, no data"
+    WRONG_DATA = "wrong data"
+    RECEIVING = "receiving"
+
+
+@dataclass(frozen=True, slots=True)
+class StreamHealth:
+    """How a sensor's stream is, at one moment.
+
+    Attributes:
+        side: Whose it is.
+        link: Which of the four states.
+        is_alive: A valid sample came within the trip level.
+        is_valid: What comes can be read, is possible, and changes.
+        is_freq_ok: The measured rate lies within the site's limits.
+        reason: Empty when all is well; else cause and remedy in one line.
+        age_s: Time since the last valid sample; infinite before the first.
+        rate_hz: Measured over the last two seconds; 0 before that.
+        worst_gap_s: The longest time between two valid samples in the last minute.
+        n_samples: Valid samples since the start.
+        n_bad: Unreadable lines and impossible values since the start.
+        n_lost: Frames missing by the running number since the start.
+    """
+
+    side: Side
+    link: LinkState
+    is_alive: bool
+    is_valid: bool
+    is_freq_ok: bool
+    reason: str
+    age_s: float
+    rate_hz: float
+    worst_gap_s: float
+    n_samples: int
+    n_bad: int
+    n_lost: int
+
+    @property
+    def is_ok(self) -> bool:
+        """Alive, valid and at the right rate."""
+        return self.is_alive and self.is_valid and self.is_freq_ok
+
+
+class ArmPosture(Enum):
+    """What the left arm says."""
+
+    STOP = "stop"
+    START = "start"
+    NEITHER = "neither"

@@ -1,0 +1,1 @@
+"""The Qt application: windows, pages, widgets, theme. Holds no decision about motion."""
