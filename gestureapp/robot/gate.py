@@ -1,0 +1,242 @@
+"""The gate: what may go to the robot. White list, permission, field, speed, age, one at a time. Pure.
+
+It decides last and cannot be switched off. A ``Permit`` is the only thing the exchange takes, and
+only this module makes one.
+"""
+
+import math
+from dataclasses import dataclass
+
+from gestureapp.robot import nx100
+from gestureapp.robot.nx100 import Request
+from gestureapp.robot.values import Direction, Pose, Refusal, RobotStatus, StopReason
+from gestureapp.robot.workspace import FieldOfOperation, Plan, plan
+
+SPEED_CAP_MM_S = 250.0
+"""Manual reduced speed of ISO 10218, as quoted by secondary sources; no site may go above."""
+SPEED_CAP_DEG_S = 30.0
+"""Our own choice for wrist turns: field reports call 9 deg/s "very fast"."""
+POSE_MAX_AGE_S = 0.2
+"""An increment is computed from a position read less than this ago."""
+STATUS_MAX_AGE_S = 0.8
+"""Older than that, nobody knows whether the robot may move."""
+PROPOSAL_MAX_AGE_S = 0.15
+"""A decision that took longer to arrive is not what the person means now."""
+
+
+@dataclass(frozen=True, slots=True)
+class Limits:
+    """What the guardian is given at its start and nobody can change afterwards.
+
+    Attributes:
+        field: Where the tool may go.
+        speed_mm_s: Of translations.
+        speed_deg_s: Of rotations.
+        frame: Frame of increments and positions.
+        tool: Tool number.
+        is_hold_to_run: Moves only while the left arm holds the start posture.
+        trip_level_s: Left sensor silent longer than this stops the robot.
+        control_limit_s: The same for the control thread.
+        gui_limit_s: The same for the window.
+
+    Raises:
+        ValueError: a limit is outside its bounds; the text names limit, value and bounds.
+    """
+
+    field: FieldOfOperation
+    speed_mm_s: float
+    speed_deg_s: float
+    frame: int
+    tool: int
+    is_hold_to_run: bool
+    trip_level_s: float
+    control_limit_s: float
+    gui_limit_s: float
+
+    def __post_init__(self) -> None:
+        for name, low, high in (
+            ("speed_mm_s", 0.1, SPEED_CAP_MM_S),
+            ("speed_deg_s", 0.1, SPEED_CAP_DEG_S),
+            ("frame", 0, 25),
+            ("tool", 0, 23),
+            ("trip_level_s", 0.05, 0.3),
+            ("control_limit_s", 0.05, 0.5),
+            ("gui_limit_s", 0.1, 1.0),
+        ):
+            value = getattr(self, name)
+            if not (math.isfinite(value) and low <= value <= high):
+                raise ValueError(f"{name} = {value}: must lie between {low} and {high}")
+
+
+@dataclass(frozen=True, slots=True)
+class Proposal:
+    """What the cell asks: one increment, for one activation.
+
+    Attributes:
+        activation_id: Counts up; one activation gives at most one increment.
+        direction: Where to.
+        t_s: When it was decided, monotonic clock.
+    """
+
+    activation_id: int
+    direction: Direction
+    t_s: float
+
+
+@dataclass(frozen=True, slots=True)
+class GateView:
+    """Everything the gate looks at, as it is at this moment.
+
+    Attributes:
+        is_armed: The operator's permission.
+        latch: The stop that has not been left yet, or None.
+        is_stopping: A stop is under way.
+        is_moving: A command is open.
+        last_activation_id: Of the newest command let through.
+        status: Last RSTATS, read at ``status_s``.
+        pose: Last RPOSC, read at ``pose_s``.
+        left_s: Receive time of the newest left sample.
+        is_left_start: The left arm holds the start posture.
+    """
+
+    is_armed: bool
+    latch: StopReason | None
+    is_stopping: bool
+    is_moving: bool
+    last_activation_id: int
+    status: RobotStatus | None
+    status_s: float
+    pose: Pose | None
+    pose_s: float
+    left_s: float
+    is_left_start: bool
+
+
+@dataclass(frozen=True, slots=True)
+class Permit:
+    """A request that may be sent. Made by the gate only."""
+
+    request: Request
+
+
+@dataclass(frozen=True, slots=True)
+class Command:
+    """A proposal that was let through.
+
+    Attributes:
+        proposal: What was asked.
+        plan: What will be done.
+        speed: mm/s, or deg/s for a rotation.
+        permit: The IMOV that says it.
+    """
+
+    proposal: Proposal
+    plan: Plan
+    speed: float
+    permit: Permit
+
+    @property
+    def duration_s(self) -> float:
+        """Length over speed; acceleration adds to it."""
+        return self.plan.length / self.speed
+
+
+_ALWAYS = frozenset({nx100.READ_STATUS, nx100.READ_ALARMS, nx100.HOLD_ON, nx100.SERVO_OFF})
+
+
+def permit(request: Request, view: GateView) -> Permit | Refusal:
+    """Let anything but a move through: reads and stops always, the rest only while nothing can move."""
+    if request in _ALWAYS or request.name == "RPOSC":
+        return Permit(request)
+    if request == nx100.SERVO_ON:
+        if view.is_armed or view.is_moving or view.is_stopping:
+            return Refusal("armed", "servo power is switched on only while disarmed and standing")
+        return Permit(request)
+    if request == nx100.HOLD_OFF:
+        if view.is_stopping or view.is_moving:
+            return Refusal("stopping", "a hold is released only after standstill was read back")
+        return Permit(request)
+    return Refusal("not_listed", f"{request.name} is not on the list of what may be sent")
+
+
+def decide(proposal: Proposal, view: GateView, limits: Limits, now_s: float) -> Command | Refusal:
+    """Let a move through, or refuse it with the limit it met."""
+    refusal = (
+        _permission(proposal, view)
+        or _freshness(proposal, view, limits, now_s)
+        or robot_blocker(view.status)
+        or _left_arm(view, limits, now_s)
+    )
+    if refusal is not None:
+        return refusal
+    assert view.pose is not None  # noqa: S101  _freshness has refused otherwise
+    planned = plan(view.pose, proposal.direction, limits.field)
+    if isinstance(planned, Refusal):
+        return planned
+    speed = limits.speed_deg_s if proposal.direction.is_rotation else limits.speed_mm_s
+    request = nx100.move_increment(planned.increment, speed, limits.frame, limits.tool)
+    return Command(proposal, planned, speed, Permit(request))
+
+
+def robot_blocker(status: RobotStatus | None, *, ignore_own_hold: bool = False) -> Refusal | None:
+    """What in the controller's own state stands against a move."""
+    if status is None:
+        return Refusal("no_status", "the robot has not told its state yet")
+    held_elsewhere = status.is_held_by_pendant or status.is_held_externally
+    for is_bad, reason, text in (
+        (status.has_alarm, "alarm", "the robot has an alarm: clear it on the pendant"),
+        (status.has_error, "error", "the robot has an error: clear it on the pendant"),
+        (status.is_teach, "teach", "the pendant is in TEACH: turn its key to REMOTE"),
+        (not status.is_remote, "not_remote", "command remote is off: turn the key to REMOTE"),
+        (not status.is_play, "not_play", "the robot is not in play mode: select it on the pendant"),
+        (not status.is_servo_on, "servo_off", "servo power is off: press Servo on"),
+        (held_elsewhere, "held", "the robot is held by the pendant or an input: release it there"),
+        (
+            status.is_held_by_command and not ignore_own_hold,
+            "held",
+            "the robot is held by command: arm again",
+        ),
+        (status.is_running, "running", "the robot is running: wait until it stands"),
+    ):
+        if is_bad:
+            return Refusal(reason, text)
+    return None
+
+
+def _permission(proposal: Proposal, view: GateView) -> Refusal | None:
+    if view.latch is not None:
+        return Refusal("latched", f"stopped ({view.latch.value}): arm again first")
+    if not view.is_armed:
+        return Refusal("not_armed", "the cell is not armed")
+    if view.is_stopping or view.is_moving:
+        return Refusal("busy", "a move or a stop is under way")
+    if proposal.activation_id <= view.last_activation_id:
+        asked, limit = f"activation {proposal.activation_id}", f"{view.last_activation_id} was used"
+        return Refusal("activation_used", "one activation gives one increment", asked, limit)
+    return None
+
+
+def _freshness(proposal: Proposal, view: GateView, limits: Limits, now_s: float) -> Refusal | None:
+    ages = (
+        ("proposal", proposal.t_s, PROPOSAL_MAX_AGE_S, "the decision came too late"),
+        ("status", view.status_s, STATUS_MAX_AGE_S, "the robot's state is too old"),
+        ("pose", view.pose_s, POSE_MAX_AGE_S, "the robot's position is too old"),
+    )
+    for name, t_s, limit_s, text in ages:
+        age_s = now_s - t_s
+        if not 0 <= age_s <= limit_s:
+            asked, limit = f"{age_s:.3f} s", f"{limit_s:.3f} s"
+            return Refusal(f"{name}_age", f"{text}: {asked}, limit {limit}", asked, limit)
+    if view.pose is None:
+        return Refusal("pose_age", "the robot has not told its position yet")
+    return None
+
+
+def _left_arm(view: GateView, limits: Limits, now_s: float) -> Refusal | None:
+    age_s = now_s - view.left_s
+    if not age_s <= limits.trip_level_s:
+        asked, limit = f"{age_s:.3f} s", f"{limits.trip_level_s:.3f} s"
+        return Refusal("left_silent", f"left sensor silent for {asked}, limit {limit}", asked, limit)
+    if not view.is_left_start:
+        return Refusal("left_not_start", "the left arm is not in the start posture")
+    return None

@@ -1,0 +1,168 @@
+"""The one stop path: from "stop" to "stands, and that was read back". Pure.
+
+HOLD first, repeated until standstill has been read back; servo off when that takes too long; a word
+to the operator when it is still not confirmed after that. Whoever asks, for whatever reason, goes
+through here.
+"""
+
+from dataclasses import dataclass
+
+from gestureapp.robot import nx100
+from gestureapp.robot.nx100 import Answer, Done, Failure, Request
+from gestureapp.robot.values import Pose, RobotStatus, StopReason
+
+REPEAT_S = 0.25
+"""HOLD is sent again this often while the robot is not known to stand."""
+ESCALATE_S = 0.6
+"""Still moving after this: servo off. HOLD from 250 mm/s takes about 0.3 s on the emulator."""
+UNCONFIRMED_S = 1.0
+"""No standstill read back after this: the operator is told to use the hardware."""
+STILL_MM = 0.05
+STILL_DEG = 0.05
+STILL_APART_S = 0.02
+"""Two positions this far apart in time and this close in space are a standstill."""
+UNHELD_S = 0.3
+"""A controller that refuses HOLD must be seen not running for this long instead: the running bit may
+rise late after an accepted move."""
+
+
+@dataclass(frozen=True, slots=True)
+class Standstill:
+    """The robot stands: read back from the controller."""
+
+    reason: StopReason
+    took_s: float
+    pose: Pose
+
+
+@dataclass(frozen=True, slots=True)
+class Unconfirmed:
+    """The robot has not confirmed a stop in time. Said once per stop."""
+
+    reason: StopReason
+    text: str
+
+
+class StopPath:
+    """One stop at a time. Owned by the supervisor.
+
+    Attributes:
+        reason: Of the stop under way, or None.
+        asked_s: When it was asked for.
+    """
+
+    def __init__(self) -> None:
+        self.reason: StopReason | None = None
+        self.asked_s = 0.0
+        self._clear()
+
+    @property
+    def is_active(self) -> bool:
+        """A stop is under way and standstill has not been read back."""
+        return self.reason is not None
+
+    def ask(self, reason: StopReason, now_s: float) -> bool:
+        """Stop. Returns whether this is news: a new stop, or a latched reason over the left arm's."""
+        if self.reason is None:
+            self._clear()
+            self.reason, self.asked_s = reason, now_s
+            return True
+        if reason.is_latched and not self.reason.is_latched:
+            self.reason = reason
+            return True
+        return False
+
+    def next_request(self, now_s: float, frame: int) -> Request:
+        """What to send next while the stop is under way."""
+        if now_s - self._hold_sent_s >= REPEAT_S:
+            return nx100.HOLD_ON
+        overdue = now_s - self.asked_s >= ESCALATE_S
+        if overdue and now_s - self._servo_off_sent_s >= REPEAT_S:
+            return nx100.SERVO_OFF
+        self._read_pose_next = not self._read_pose_next
+        return nx100.read_pose(frame) if self._read_pose_next else nx100.READ_STATUS
+
+    def sent(self, request: Request, now_s: float) -> None:
+        """A request has gone out."""
+        if request == nx100.HOLD_ON:
+            self._hold_sent_s = now_s
+        elif request == nx100.SERVO_OFF:
+            self._servo_off_sent_s = now_s
+
+    def answered(self, request: Request, answer: Answer, sent_s: float, now_s: float) -> None:
+        """An answer has come; only what was asked after the stop counts."""
+        if self.reason is None or sent_s < self.asked_s:
+            return
+        if request.is_hold:
+            self._is_held = self._is_held or isinstance(answer, Done)
+            if isinstance(answer, Failure):
+                self._refusal = answer.words
+        elif isinstance(answer, RobotStatus):
+            self._note_status(answer, now_s)
+        elif isinstance(answer, Pose):
+            self._note_pose(answer, now_s)
+
+    def link_broken(self) -> None:
+        """The line was lost: HOLD is the first request on the next one, and nothing is known."""
+        self._hold_sent_s = float("-inf")
+        self._is_held = False
+        self._not_running_since_s = None
+        self._still = None
+
+    def check(self, now_s: float) -> Standstill | Unconfirmed | None:
+        """Has the robot confirmed, or has it failed to for too long?"""
+        if self.reason is None:
+            return None
+        if self._stands(now_s) and self._still is not None:
+            confirmed = Standstill(self.reason, now_s - self.asked_s, self._still)
+            self.reason = None
+            return confirmed
+        if now_s - self.asked_s >= UNCONFIRMED_S and not self._told:
+            self._told = True
+            why = f" ({self._refusal})" if self._refusal else ""
+            text = f"no standstill read back for {now_s - self.asked_s:.1f} s{why}"
+            return Unconfirmed(self.reason, text)
+        return None
+
+    def _clear(self) -> None:
+        self._hold_sent_s = float("-inf")
+        self._servo_off_sent_s = float("-inf")
+        self._is_held = False
+        self._refusal = ""
+        self._not_running_since_s: float | None = None
+        self._newest: tuple[Pose, float] | None = None
+        self._still: Pose | None = None
+        self._read_pose_next = False
+        self._told = False
+
+    def _note_status(self, status: RobotStatus, now_s: float) -> None:
+        if status.is_running:
+            self._not_running_since_s = None
+            self._still = None
+        elif self._not_running_since_s is None:
+            self._not_running_since_s = now_s
+
+    def _note_pose(self, pose: Pose, now_s: float) -> None:
+        if self._newest is None:
+            self._newest = (pose, now_s)
+            return
+        before, at_s = self._newest
+        if not is_same_place(before, pose):
+            self._still = None
+            self._newest = (pose, now_s)
+        elif now_s - at_s >= STILL_APART_S:
+            self._still = pose
+
+    def _stands(self, now_s: float) -> bool:
+        if self._not_running_since_s is None:
+            return False
+        return self._is_held or now_s - self._not_running_since_s >= UNHELD_S
+
+
+def is_same_place(a: Pose, b: Pose) -> bool:
+    """Whether two poses differ by less than a standing robot's read-back does."""
+    lengths = zip(a.position_mm, b.position_mm, strict=True)
+    angles = zip(a.rotation_deg, b.rotation_deg, strict=True)
+    return all(abs(p - q) <= STILL_MM for p, q in lengths) and all(
+        abs((p - q + 180) % 360 - 180) <= STILL_DEG for p, q in angles
+    )
