@@ -1,0 +1,312 @@
+"""Simulated arms: gestures in, true specific force at the strapped-on sensor out. Pure.
+
+Signs. Specific force in the sensor's axes (+X forward, +Y left, +Z up, right-handed), so a level
+hand at rest reads (0, 0, 1). For turns about Y the paper (IV.B, figure 7) says which way is which:
+RY- reads ax = -1 g and RY+ reads ax = +1 g; with right-handed axes and specific force RY+ is then
+the *negative* right-handed turn about Y (fingers up). For RX the paper gives no sign; RX+ here is
+the right-handed turn about X (left edge of the hand up) and reads ay = +1 g, RX- reads ay = -1 g.
+RZ+ turns the hand to the left. The left arm's start posture reads ax = -1 g (paper, figure 8).
+"""
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gestureapp.config import SiteSettings
+from gestureapp.gestures import Gesture, Kind, gesture
+from gestureapp.sensing.values import ArmPosture
+from gestureapp.simulation.motion import (
+    N_COORDINATES,
+    PEAK_ACCELERATION,
+    Coordinate,
+    Motion,
+    Submovement,
+)
+from gestureapp.simulation.people import Person
+from gestureapp.simulation.worn import STANDARD_GRAVITY, WornSensor
+
+F64 = NDArray[np.float64]
+Triple = tuple[float, float, float]
+
+HOLD_S = 0.7
+"""How long the end point of a movement is held before the hand goes back by itself: past the end of
+a take, which is 1.0 s after the activation."""
+RETURN_PEAK_G = 0.03
+"""Highest acceleration on the way back: of the order of the tremor, so it looks like no gesture."""
+TURN_BACK_S = 1.2
+"""Least duration of the way back from a posture; two to four times slower than the gesture."""
+POSTURE_SETTLED_S = 0.15
+"""A roll or pitch posture is held for at least this long when the activation comes (paper: it is a
+static measurement)."""
+_RIGHT = 1
+_LEFT = 2
+
+
+class RightArm:
+    """The right arm with its sensor. Owned by one thread; ask it with increasing times.
+
+    Args:
+        person: Whose arm it is.
+        seed: Takes with the same person and seed are the same; None takes fresh chance.
+    """
+
+    def __init__(self, person: Person, seed: int | None = None) -> None:
+        self.person = person
+        self._rng = _chance(person, seed, _RIGHT)
+        self._worn = WornSensor(person.strap_rad, person.tremor_g, person.sway_rad, self._rng)
+        self._worn.yaw_radius_m = person.yaw_radius_m
+        self._worn.swing_radius_m = person.forearm_m
+        self._motion = Motion()
+        self._home = np.zeros(N_COORDINATES)
+        self._find_level(-math.inf)
+
+    def perform(self, label: str, t_s: float) -> None:
+        """Start the movement of a gesture at this time, now or later.
+
+        What was asked for and has not begun by then (also the way back) is dropped. A movement is
+        made along the hand's own axes, so it reads the same after a turn about Z. The hand goes
+        back by itself after a movement; a posture is held until ``rest`` or the next gesture.
+
+        Raises:
+            KeyError: no gesture has this label.
+        """
+        wanted = gesture(label)
+        self._motion.cancel_from(t_s)
+        part = self._plan(wanted, t_s)
+        self._motion.add(part)
+        if wanted.kind is Kind.MOVEMENT:
+            self._go_home(part.start_s + part.duration_s + HOLD_S)
+
+    def perform_for(self, label: str, activation_s: float) -> float:
+        """Start a gesture so that it fits an activation expected at this time.
+
+        Roll and pitch postures are already held then; everything else begins at the activation plus
+        this person's coordination offset, drawn anew each time.
+
+        Returns:
+            When the movement begins; it may lie ``lead_s`` before the activation.
+
+        Raises:
+            KeyError: no gesture has this label.
+        """
+        person = self.person
+        if _is_held(gesture(label)):
+            start_s = activation_s - self.lead_s(label)
+        else:
+            start_s = activation_s + self._rng.normal(person.offset_s, person.offset_spread_s)
+        self.perform(label, start_s)
+        return start_s
+
+    def lead_s(self, label: str) -> float:
+        """How long before the activation the right arm may have to begin; at least 0.
+
+        A virtual operator calls ``perform_for`` no later than this before the activation.
+
+        Raises:
+            KeyError: no gesture has this label.
+        """
+        person = self.person
+        if _is_held(gesture(label)):
+            return person.turn_s * (1.0 + 3.0 * person.variation) + POSTURE_SETTLED_S
+        return max(0.0, 4.0 * person.offset_spread_s - person.offset_s)
+
+    def rest(self, t_s: float) -> None:
+        """Go slowly back to a level rest from this time on.
+
+        What was asked for and has not begun by then is dropped.
+        """
+        self._motion.cancel_from(t_s)
+        self._go_home(t_s)
+
+    def accel_g(self, t_s: float) -> Triple:
+        """True specific force at the sensor at this time, in g.
+
+        Times may not go back by more than 1 s.
+        """
+        self._motion.settle(t_s - 1.0)
+        x, y, z = self.accel_at(np.array([t_s]))[0].tolist()
+        return x, y, z
+
+    def accel_at(self, times_s: F64) -> F64:
+        """The same for times of shape (n,): shape (n, 3), in g."""
+        return self._worn.accel(self._motion, times_s)
+
+    def is_at_rest(self, t_s: float) -> bool:
+        """Whether nothing moves at this time and the hand is level where it began."""
+        q, v, _ = self._motion.at(np.array([t_s]))
+        turned = q[0, Coordinate.ROLL : Coordinate.YAW + 1] - self._home[Coordinate.ROLL :]
+        return bool(np.all(np.abs(v) < 1e-3) and np.all(np.abs(turned) < np.radians(5.0)))
+
+    def _plan(self, wanted: Gesture, t_s: float) -> Submovement:
+        person, goal = self.person, self._motion.goal
+        size = 1.0 + np.clip(self._rng.normal(0.0, person.variation), -0.4, 0.4)
+        pace = 1.0 + np.clip(self._rng.normal(0.0, person.variation), -0.3, 0.3)
+        change = np.zeros(N_COORDINATES)
+        change[Coordinate.ROLL :] = self._home[Coordinate.ROLL :] - goal[Coordinate.ROLL :]
+        change[Coordinate.YAW] = 0.0
+        if wanted.kind is Kind.MOVEMENT:
+            change += self._translation(wanted, size, float(goal[Coordinate.YAW]))
+            duration_s = person.duration_s * pace
+        elif wanted.axis == 2:
+            yaw = wanted.sign * person.yaw_rad * size
+            change[Coordinate.YAW] = yaw
+            change[Coordinate.ROLL] += person.bank * yaw + self._slip(person.tilt_spread_rad / 2)
+            change[Coordinate.PITCH] += self._slip(person.tilt_spread_rad / 2)
+            duration_s = person.yaw_s * pace
+        else:
+            change += self._turn(wanted, size)
+            duration_s = person.turn_s * min(pace, 1.0 + 3.0 * person.variation)
+        return Submovement(t_s, float(duration_s), tuple(change.tolist()))
+
+    def _translation(self, wanted: Gesture, size: float, heading_rad: float) -> F64:
+        """A step along one axis of the hand, with what a person adds to it unasked."""
+        person, axis = self.person, wanted.axis
+        length = wanted.sign * person.reach_m[axis] * size
+        step = np.zeros(3)
+        step[axis] = length
+        for k, other in enumerate(a for a in range(3) if a != axis):
+            error = person.skew_rad[2 * axis + k] + self._slip(person.skew_spread_rad)
+            step[other] = length * math.tan(error)
+        change = np.zeros(N_COORDINATES)
+        c, s = math.cos(heading_rad), math.sin(heading_rad)
+        change[Coordinate.X] = c * step[0] - s * step[1]
+        change[Coordinate.Y] = s * step[0] + c * step[1]
+        if axis == 2:
+            swing = step[2] / person.forearm_m
+            change[Coordinate.SWING] = swing
+            change[Coordinate.PITCH] = -(1.0 - person.wrist_keeps_level) * swing
+        else:
+            change[Coordinate.Z] = step[2]
+        tilt = person.tilt_rad[2 * axis : 2 * axis + 2]
+        change[Coordinate.ROLL] += wanted.sign * tilt[0] + self._slip(person.tilt_spread_rad)
+        change[Coordinate.PITCH] += wanted.sign * tilt[1] + self._slip(person.tilt_spread_rad)
+        return change
+
+    def _turn(self, wanted: Gesture, size: float) -> F64:
+        """A turn about X or Y from level; the sign of RY is the paper's, see above."""
+        person = self.person
+        angle = wanted.sign * min(person.turn_rad * (1.0 + (size - 1.0) / 2.0), math.radians(100.0))
+        change = np.zeros(N_COORDINATES)
+        main, other = Coordinate.ROLL, Coordinate.PITCH
+        if wanted.axis == 1:
+            main, other, angle = other, main, -angle
+        change[main] = angle
+        change[other] = self._slip(2.0 * person.tilt_spread_rad)
+        return change
+
+    def _go_home(self, t_s: float) -> None:
+        self._find_level(t_s)
+        change = self._home - self._motion.goal
+        way_m = (
+            float(np.linalg.norm(change[:3]))
+            + abs(change[Coordinate.SWING]) * self.person.forearm_m
+        )
+        way_m += abs(change[Coordinate.YAW]) * self.person.yaw_radius_m
+        duration_s = math.sqrt(PEAK_ACCELERATION * way_m / (RETURN_PEAK_G * STANDARD_GRAVITY))
+        self._motion.add(Submovement(t_s, max(duration_s, TURN_BACK_S), tuple(change.tolist())))
+
+    def _find_level(self, t_s: float) -> None:
+        """Choose what this person takes for level next; at the very start, be there."""
+        spread = self.person.level_spread_rad
+        self._home[Coordinate.ROLL] = self.person.level_rad[0] + self._slip(spread)
+        self._home[Coordinate.PITCH] = self.person.level_rad[1] + self._slip(spread)
+        if math.isinf(t_s):
+            self._motion.add(Submovement(-1e9, 1.0, tuple(self._home.tolist())))
+
+    def _slip(self, spread: float) -> float:
+        return float(self._rng.normal(0.0, spread))
+
+
+class LeftArm:
+    """The left arm with its sensor: level is stop, turned about Y with ax = -1 g is start.
+
+    Owned by one thread; ask it with increasing times. Arguments as for ``RightArm``.
+    """
+
+    def __init__(self, person: Person, seed: int | None = None) -> None:
+        self.person = person
+        self._rng = _chance(person, seed, _LEFT)
+        self._worn = _left_worn(person, self._rng)
+        self._motion = Motion()
+
+    def take(self, posture: ArmPosture, t_s: float) -> None:
+        """Begin to turn into a posture at this time; NEITHER stops half way between the two.
+
+        What was asked for and has not begun by then is dropped.
+        """
+        self._motion.cancel_from(t_s)
+        wiggle = 0.02 * np.clip(self._rng.standard_normal(), -2.0, 2.0)
+        self._motion.add(_left_turn(self.person, self._motion, posture, t_s, 1.0 + float(wiggle)))
+
+    def accel_g(self, t_s: float) -> Triple:
+        """True specific force at the sensor at this time, in g.
+
+        Times may not go back by more than 1 s.
+        """
+        self._motion.settle(t_s - 1.0)
+        x, y, z = self.accel_at(np.array([t_s]))[0].tolist()
+        return x, y, z
+
+    def accel_at(self, times_s: F64) -> F64:
+        """The same for times of shape (n,): shape (n, 3), in g."""
+        return self._worn.accel(self._motion, times_s)
+
+
+def start_seen_after_s(person: Person, rate_hz: float = 100.0) -> float:
+    """From the moment the left arm begins to turn until it is seen in the start posture; the mean.
+
+    It is seen when the reading has come within the site's default angle of (-1, 0, 0) for the
+    default number of samples in a row: on average that many samples less a half after it came
+    there. A virtual operator adds this to the start of the left arm's turn to get the expected
+    activation.
+    """
+    site = SiteSettings()
+    motion = Motion()
+    motion.add(_left_turn(person, motion, ArmPosture.START, 0.0, 1.0))
+    times = np.arange(0.0, 2.0 * person.left_turn_s, 0.001)
+    still = np.random.default_rng(0)
+    worn = _left_worn(person, still, tremor_g=0.0, sway_rad=0.0)
+    accel = worn.accel(motion, times) * np.array(person.left_sensor.gain)
+    accel += np.array(person.left_sensor.offset_g)
+    angle_deg = np.degrees(np.arccos(-accel[:, 0] / np.linalg.norm(accel, axis=1)))
+    outside = np.flatnonzero(angle_deg > site.posture_enter_deg)
+    entered_s = float(times[min(outside[-1] + 1, len(times) - 1)])
+    return entered_s + (site.posture_debounce - 0.5) / rate_hz
+
+
+def _is_held(wanted: Gesture) -> bool:
+    """Whether gravity shows the gesture, so that it is held before the activation."""
+    return wanted.kind is Kind.POSTURE and wanted.axis != 2
+
+
+def _left_worn(
+    person: Person,
+    rng: np.random.Generator,
+    tremor_g: float | None = None,
+    sway_rad: float | None = None,
+) -> WornSensor:
+    worn = WornSensor(
+        person.left_strap_rad,
+        person.tremor_g if tremor_g is None else tremor_g,
+        person.sway_rad if sway_rad is None else sway_rad,
+        rng,
+    )
+    worn.before_wrist_m = person.left_radius_m
+    return worn
+
+
+def _left_turn(
+    person: Person, motion: Motion, posture: ArmPosture, t_s: float, pace: float
+) -> Submovement:
+    share = {ArmPosture.STOP: 0.0, ArmPosture.START: 1.0, ArmPosture.NEITHER: 0.5}[posture]
+    change = np.zeros(N_COORDINATES)
+    goal = share * person.left_turn_rad
+    change[Coordinate.PITCH] = goal - motion.goal[Coordinate.PITCH]
+    return Submovement(t_s, person.left_turn_s * pace, tuple(change.tolist()))
+
+
+def _chance(person: Person, seed: int | None, side: int) -> np.random.Generator:
+    if seed is None:
+        return np.random.default_rng()
+    return np.random.default_rng([person.seed, person.index, person.session, side, seed])
