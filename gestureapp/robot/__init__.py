@@ -1,1 +1,1 @@
-"""The robot's end of the chain: codec, exchange, workspace, gate, guardian. Standard library only."""
+"""The robot's end of the chain, from gate to guardian. Standard library only."""

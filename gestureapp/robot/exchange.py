@@ -1,7 +1,7 @@
-"""Whose turn it is on the robot's line: what may be sent, which answer is awaited, since when. Pure.
+"""Whose turn it is on the robot's line: what may be sent, which answer is awaited. Pure.
 
-At most one request is in flight. Bytes and the time come in, bytes and events go out; the end of the
-stream is an input like any other. Nothing here raises on what the wire brings.
+At most one request is in flight. Bytes and the time come in, bytes and events go out; the end of
+the stream is an input like any other. Nothing here raises on what the wire brings.
 """
 
 from dataclasses import dataclass
@@ -51,9 +51,10 @@ ExchangeEvent = Opened | Answered | LinkBroken
 OPENING_LIMIT_S = 1.5
 """A controller that answers in 0.5 s must still be reached, or it could never be told to hold."""
 
-ANSWER_LIMIT_S = {"RSTATS": 0.3, "RPOSC": 0.3, "RALARM": 0.3, "IMOV": 0.5, "HOLD": 0.8, "SVON": 3.0}
-"""Reads are short so that a stop never waits long behind one. HOLD is longer: dropping a slow line in
-the middle of it would mean never holding. SVON on may come late (vendor SDKs wait up to 10 s)."""
+ANSWER_LIMIT_S = {"RSTATS": 0.3, "RPOSC": 0.3, "RALARM": 0.3, "IMOV": 0.5, "HOLD": 0.8, "SVON": 3}
+"""Reads are short so that a stop never waits long behind one. HOLD is longer: dropping a slow line
+in the middle of it would mean never holding. SVON on may come late: vendor SDKs wait up to 10 s.
+"""
 
 
 class Exchange:
@@ -150,7 +151,7 @@ class Exchange:
 
     def _header_answer(self, line: str, now_s: float) -> tuple[ExchangeEvent | None, bytes]:
         request = self.request
-        assert request is not None  # noqa: S101  HEADER_SENT always has a request
+        assert request is not None
         if line == f"OK: {request.name}":
             limit_s = self._deadline_s - self._since_s
             self.phase = Phase.DATA_SENT
@@ -165,7 +166,7 @@ class Exchange:
 
     def _data_answer(self, line: str, now_s: float) -> ExchangeEvent:
         request = self.request
-        assert request is not None  # noqa: S101  DATA_SENT always has a request
+        assert request is not None
         answer = nx100.parse_answer(request, line)
         if isinstance(answer, Unreadable):
             return self._break(
@@ -177,7 +178,7 @@ class Exchange:
 
     def _answered(self, answer: Answer, now_s: float) -> ExchangeEvent:
         request = self.request
-        assert request is not None  # noqa: S101  called only while one is in flight
+        assert request is not None
         event = Answered(request, answer, now_s - self._since_s)
         self._idle()
         return event

@@ -1,4 +1,4 @@
-"""The gate: what may go to the robot. White list, permission, field, speed, age, one at a time. Pure.
+"""The gate: what may go to the robot. White list, permission, field, speed, age. Pure.
 
 It decides last and cannot be switched off. A ``Permit`` is the only thing the exchange takes, and
 only this module makes one.
@@ -145,7 +145,7 @@ _ALWAYS = frozenset({nx100.READ_STATUS, nx100.READ_ALARMS, nx100.HOLD_ON, nx100.
 
 
 def permit(request: Request, view: GateView) -> Permit | Refusal:
-    """Let anything but a move through: reads and stops always, the rest only while nothing can move."""
+    """Let through what is not a move: reads and stops always, the rest only at standstill."""
     if request in _ALWAYS or request.name == "RPOSC":
         return Permit(request)
     if request == nx100.SERVO_ON:
@@ -169,7 +169,7 @@ def decide(proposal: Proposal, view: GateView, limits: Limits, now_s: float) -> 
     )
     if refusal is not None:
         return refusal
-    assert view.pose is not None  # noqa: S101  _freshness has refused otherwise
+    assert view.pose is not None
     planned = plan(view.pose, proposal.direction, limits.field)
     if isinstance(planned, Refusal):
         return planned
@@ -236,7 +236,9 @@ def _left_arm(view: GateView, limits: Limits, now_s: float) -> Refusal | None:
     age_s = now_s - view.left_s
     if not age_s <= limits.trip_level_s:
         asked, limit = f"{age_s:.3f} s", f"{limits.trip_level_s:.3f} s"
-        return Refusal("left_silent", f"left sensor silent for {asked}, limit {limit}", asked, limit)
+        return Refusal(
+            "left_silent", f"left sensor silent for {asked}, limit {limit}", asked, limit
+        )
     if not view.is_left_start:
         return Refusal("left_not_start", "the left arm is not in the start posture")
     return None

@@ -269,8 +269,8 @@ def _plain(value: object) -> object:
 
 
 def _build(kind: Any, value: Any) -> Any:  # noqa: ANN401  the edge: anything may come
-    if dataclasses.is_dataclass(kind):
-        hints = _HINTS.get(kind) or _HINTS.setdefault(kind, typing.get_type_hints(kind))  # type: ignore[arg-type]
+    if isinstance(kind, type) and dataclasses.is_dataclass(kind):
+        hints = _HINTS.get(kind) or _HINTS.setdefault(kind, typing.get_type_hints(kind))
         if set(value) != set(hints):
             raise ValueError(f"fields of {kind}")
         return kind(**{name: _build(hints[name], value[name]) for name in hints})

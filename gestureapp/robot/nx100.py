@@ -1,9 +1,9 @@
 """The NX100's Ethernet server protocol: requests to bytes, bytes to lines, lines to answers. Pure.
 
-One command is a header line, the controller's ``OK: CMD``, then data where the command has some, then
-the answer. Data answers end in CR only, everything else in CRLF; the LF may come in a later segment.
-Source: vendor's Ethernet server manual for the next controller generation, pages 14 and 15, and the
-bytes that clients recorded on NX100 controllers.
+One command is a header line, the controller's ``OK: CMD``, then data where the command has some,
+then the answer. Data answers end in CR only, everything else in CRLF; the LF may come in a later
+segment. Source: vendor's Ethernet server manual for the next controller generation, pages 14 and
+15, and the bytes that clients recorded on NX100 controllers.
 """
 
 import math
@@ -65,7 +65,7 @@ def read_pose(frame: int = 1) -> Request:
 
 
 def move_increment(increment: PoseIncrement, speed: float, frame: int, tool: int) -> Request:
-    """IMOV, 17 fields: speed class, speed, frame, six increments, reserved, tool, six external axes.
+    """IMOV, 17 fields: speed class, speed, frame, six increments, reserved, tool, external axes.
 
     Args:
         increment: In the given frame.
@@ -172,7 +172,7 @@ CODES = {
     3450: "servo power cannot be turned on",
     5200: "data out of range",
 }
-"""Interpreter codes that a move, a hold or a read may meet. Source: nx100 notes, section 3.2 (B)."""
+"""What a move, a hold or a read may meet. Source: Yaskawa's own HSES dissector lists the same."""
 
 
 def is_banner(line: str) -> bool:

@@ -22,8 +22,8 @@ STILL_DEG = 0.05
 STILL_APART_S = 0.02
 """Two positions this far apart in time and this close in space are a standstill."""
 UNHELD_S = 0.3
-"""A controller that refuses HOLD must be seen not running for this long instead: the running bit may
-rise late after an accepted move."""
+"""A controller that refuses HOLD must be seen not running for this long instead: the running bit
+may rise late after an accepted move."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -43,6 +43,21 @@ class Unconfirmed:
     text: str
 
 
+@dataclass(slots=True)
+class _Evidence:
+    """What is known since the stop was asked for."""
+
+    hold_sent_s: float = float("-inf")
+    servo_off_sent_s: float = float("-inf")
+    is_held: bool = False
+    refusal: str = ""
+    not_running_since_s: float | None = None
+    newest: tuple[Pose, float] | None = None
+    still: Pose | None = None
+    read_pose_next: bool = False
+    told: bool = False
+
+
 class StopPath:
     """One stop at a time. Owned by the supervisor.
 
@@ -54,7 +69,7 @@ class StopPath:
     def __init__(self) -> None:
         self.reason: StopReason | None = None
         self.asked_s = 0.0
-        self._clear()
+        self._seen = _Evidence()
 
     @property
     def is_active(self) -> bool:
@@ -62,9 +77,9 @@ class StopPath:
         return self.reason is not None
 
     def ask(self, reason: StopReason, now_s: float) -> bool:
-        """Stop. Returns whether this is news: a new stop, or a latched reason over the left arm's."""
+        """Stop. True when this is news: a new stop, or a latched reason over the left arm's."""
         if self.reason is None:
-            self._clear()
+            self._seen = _Evidence()
             self.reason, self.asked_s = reason, now_s
             return True
         if reason.is_latched and not self.reason.is_latched:
@@ -74,29 +89,29 @@ class StopPath:
 
     def next_request(self, now_s: float, frame: int) -> Request:
         """What to send next while the stop is under way."""
-        if now_s - self._hold_sent_s >= REPEAT_S:
+        if now_s - self._seen.hold_sent_s >= REPEAT_S:
             return nx100.HOLD_ON
         overdue = now_s - self.asked_s >= ESCALATE_S
-        if overdue and now_s - self._servo_off_sent_s >= REPEAT_S:
+        if overdue and now_s - self._seen.servo_off_sent_s >= REPEAT_S:
             return nx100.SERVO_OFF
-        self._read_pose_next = not self._read_pose_next
-        return nx100.read_pose(frame) if self._read_pose_next else nx100.READ_STATUS
+        self._seen.read_pose_next = not self._seen.read_pose_next
+        return nx100.read_pose(frame) if self._seen.read_pose_next else nx100.READ_STATUS
 
     def sent(self, request: Request, now_s: float) -> None:
         """A request has gone out."""
         if request == nx100.HOLD_ON:
-            self._hold_sent_s = now_s
+            self._seen.hold_sent_s = now_s
         elif request == nx100.SERVO_OFF:
-            self._servo_off_sent_s = now_s
+            self._seen.servo_off_sent_s = now_s
 
     def answered(self, request: Request, answer: Answer, sent_s: float, now_s: float) -> None:
         """An answer has come; only what was asked after the stop counts."""
         if self.reason is None or sent_s < self.asked_s:
             return
         if request.is_hold:
-            self._is_held = self._is_held or isinstance(answer, Done)
+            self._seen.is_held = self._seen.is_held or isinstance(answer, Done)
             if isinstance(answer, Failure):
-                self._refusal = answer.words
+                self._seen.refusal = answer.words
         elif isinstance(answer, RobotStatus):
             self._note_status(answer, now_s)
         elif isinstance(answer, Pose):
@@ -104,59 +119,48 @@ class StopPath:
 
     def link_broken(self) -> None:
         """The line was lost: HOLD is the first request on the next one, and nothing is known."""
-        self._hold_sent_s = float("-inf")
-        self._is_held = False
-        self._not_running_since_s = None
-        self._still = None
+        self._seen.hold_sent_s = float("-inf")
+        self._seen.is_held = False
+        self._seen.not_running_since_s = None
+        self._seen.still = None
 
     def check(self, now_s: float) -> Standstill | Unconfirmed | None:
         """Has the robot confirmed, or has it failed to for too long?"""
         if self.reason is None:
             return None
-        if self._stands(now_s) and self._still is not None:
-            confirmed = Standstill(self.reason, now_s - self.asked_s, self._still)
+        if self._stands(now_s) and self._seen.still is not None:
+            confirmed = Standstill(self.reason, now_s - self.asked_s, self._seen.still)
             self.reason = None
             return confirmed
-        if now_s - self.asked_s >= UNCONFIRMED_S and not self._told:
-            self._told = True
-            why = f" ({self._refusal})" if self._refusal else ""
+        if now_s - self.asked_s >= UNCONFIRMED_S and not self._seen.told:
+            self._seen.told = True
+            why = f" ({self._seen.refusal})" if self._seen.refusal else ""
             text = f"no standstill read back for {now_s - self.asked_s:.1f} s{why}"
             return Unconfirmed(self.reason, text)
         return None
 
-    def _clear(self) -> None:
-        self._hold_sent_s = float("-inf")
-        self._servo_off_sent_s = float("-inf")
-        self._is_held = False
-        self._refusal = ""
-        self._not_running_since_s: float | None = None
-        self._newest: tuple[Pose, float] | None = None
-        self._still: Pose | None = None
-        self._read_pose_next = False
-        self._told = False
-
     def _note_status(self, status: RobotStatus, now_s: float) -> None:
         if status.is_running:
-            self._not_running_since_s = None
-            self._still = None
-        elif self._not_running_since_s is None:
-            self._not_running_since_s = now_s
+            self._seen.not_running_since_s = None
+            self._seen.still = None
+        elif self._seen.not_running_since_s is None:
+            self._seen.not_running_since_s = now_s
 
     def _note_pose(self, pose: Pose, now_s: float) -> None:
-        if self._newest is None:
-            self._newest = (pose, now_s)
+        if self._seen.newest is None:
+            self._seen.newest = (pose, now_s)
             return
-        before, at_s = self._newest
+        before, at_s = self._seen.newest
         if not is_same_place(before, pose):
-            self._still = None
-            self._newest = (pose, now_s)
+            self._seen.still = None
+            self._seen.newest = (pose, now_s)
         elif now_s - at_s >= STILL_APART_S:
-            self._still = pose
+            self._seen.still = pose
 
     def _stands(self, now_s: float) -> bool:
-        if self._not_running_since_s is None:
+        if self._seen.not_running_since_s is None:
             return False
-        return self._is_held or now_s - self._not_running_since_s >= UNHELD_S
+        return self._seen.is_held or now_s - self._seen.not_running_since_s >= UNHELD_S
 
 
 def is_same_place(a: Pose, b: Pose) -> bool:

@@ -83,7 +83,7 @@ class Plan:
 
 
 def plan(pose: Pose, direction: Direction, field: FieldOfOperation) -> Plan | Refusal:
-    """The increment from a pose in a direction, as far as the field allows, or why there is none."""
+    """The increment from a pose in a direction, as far as the field allows, or a refusal."""
     if not all(math.isfinite(v) for v in (*pose.position_mm, *pose.rotation_deg)):
         return Refusal("bad_pose", "the robot's position is not a number")
     outside = _outside(pose, field)
@@ -95,7 +95,7 @@ def plan(pose: Pose, direction: Direction, field: FieldOfOperation) -> Plan | Re
 
 
 def sphere_crossings(start: Vector, unit: Vector, radius: float) -> tuple[float, float] | None:
-    """Where a line crosses a sphere around the origin (paper, equation 3), as distances from the start.
+    """Where a line crosses a sphere around the origin (paper, equation 3).
 
     Args:
         start: Point on the line, mm.
@@ -128,7 +128,7 @@ def _outside(pose: Pose, field: FieldOfOperation) -> Refusal | None:
         text = f"the tool stands outside the field of operation, at {asked}; allowed: {limit}"
         return Refusal("outside_field", text, asked, limit)
     if distance > field.ext_radius_mm - EDGE_MM or distance < field.int_radius_mm + EDGE_MM:
-        text = f"the tool stands on the edge of the field of operation, at {asked}; allowed: {limit}"
+        text = f"the tool stands on the edge of the field of operation, at {asked} of {limit}"
         return Refusal("on_edge", text, asked, limit)
     return None
 
@@ -144,8 +144,9 @@ def _plan_translation(pose: Pose, direction: Direction, field: FieldOfOperation)
     length = _towards_zero(reach - field.margin_mm, 3)
     name = f"{AXES[direction.axis]}{'+' if direction.sign > 0 else '-'}"
     if length < MIN_LENGTH_MM:
-        text = f"no room along {name}: {reach:.1f} mm to the {limited_by}, {field.margin_mm:.1f} mm margin"
-        return Refusal("at_limit", text, f"{reach:.1f} mm", f"{field.margin_mm:.1f} mm margin")
+        asked, limit = f"{reach:.1f} mm", f"{field.margin_mm:.1f} mm margin"
+        text = f"no room along {name}: {asked} to the {limited_by}, {limit}"
+        return Refusal("at_limit", text, asked, limit)
     dx, dy, dz = (u * length + 0.0 for u in unit)
     return Plan(pose, PoseIncrement(dx, dy, dz), length, limited_by)
 

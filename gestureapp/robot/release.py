@@ -1,0 +1,72 @@
+"""Releasing a hold: position read first, HOLD 0, then read back that nothing is held. Pure.
+
+Whether HOLD 0 resumes an interrupted move is documented nowhere. So for a while after it the state
+is read often, and the supervisor holds again when the robot runs without a new command.
+"""
+
+from enum import Enum
+
+from gestureapp.robot import nx100
+from gestureapp.robot.nx100 import Answer, Failure, Request
+from gestureapp.robot.values import Pose, RobotStatus
+
+WATCH_S = 0.5
+"""How long after the release the state is read often."""
+
+
+class _Phase(Enum):
+    NONE = 0
+    READ_POSE = 1
+    SEND = 2
+    READ_BACK = 3
+
+
+class Release:
+    """One release at a time. Owned by the supervisor."""
+
+    def __init__(self) -> None:
+        self._phase = _Phase.NONE
+        self._released_s = float("-inf")
+        self._is_done = False
+
+    @property
+    def is_active(self) -> bool:
+        """The hold is being released and that was not read back yet."""
+        return self._phase is not _Phase.NONE
+
+    def is_watching(self, now_s: float) -> bool:
+        """Released a moment ago: a robot that runs now does so without a command."""
+        return now_s - self._released_s < WATCH_S
+
+    def begin(self) -> None:
+        """Release the hold."""
+        self._phase = _Phase.READ_POSE
+
+    def cancel(self) -> None:
+        """A stop goes before."""
+        self._phase = _Phase.NONE
+
+    def next_request(self, frame: int) -> Request | None:
+        """What to send next, or None while nothing is to be released."""
+        return {
+            _Phase.READ_POSE: nx100.read_pose(frame),
+            _Phase.SEND: nx100.HOLD_OFF,
+            _Phase.READ_BACK: nx100.READ_STATUS,
+        }.get(self._phase)
+
+    def answered(self, request: Request, answer: Answer, now_s: float) -> None:
+        """An answer has come."""
+        if self._phase is _Phase.READ_POSE and isinstance(answer, Pose):
+            self._phase = _Phase.SEND
+        elif self._phase is _Phase.SEND and request == nx100.HOLD_OFF:
+            is_refused = isinstance(answer, Failure)
+            self._phase = _Phase.NONE if is_refused else _Phase.READ_BACK
+            self._released_s = now_s
+        elif self._phase is _Phase.READ_BACK and isinstance(answer, RobotStatus):
+            self._is_done = not answer.is_held_by_command
+            self._phase = _Phase.NONE
+
+    def take_done(self) -> bool:
+        """Whether a release has just been read back; says so once."""
+        is_done, self._is_done = self._is_done, False
+        return is_done

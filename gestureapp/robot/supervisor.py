@@ -1,0 +1,458 @@
+"""The guardian's mind: permission, latch, watchdogs, the one open command and the stop path. Pure.
+
+Bytes, messages and the time come in; bytes and messages go out. Nothing here waits, and nothing
+here can be switched off by the application: limits come once, at the start.
+
+Order of what goes on the wire: the stop path first, then releasing a hold, then a command, then
+servo power, then polling. At most one request is in flight, so a stop waits for one answer at the
+most.
+"""
+
+from dataclasses import dataclass
+
+from gestureapp.robot import messages as m
+from gestureapp.robot import nx100
+from gestureapp.robot.exchange import Answered, Exchange, ExchangeEvent, LinkBroken, Opened
+from gestureapp.robot.gate import (
+    STATUS_MAX_AGE_S,
+    Command,
+    GateView,
+    Limits,
+    Permit,
+    Proposal,
+    decide,
+    permit,
+    robot_blocker,
+)
+from gestureapp.robot.motion import Motion, Reached, StoppedShort
+from gestureapp.robot.nx100 import Alarms, Failure, Request
+from gestureapp.robot.polling import Pace, Polling
+from gestureapp.robot.readings import Readings
+from gestureapp.robot.release import Release
+from gestureapp.robot.stopping import Standstill, StopPath
+from gestureapp.robot.values import Pose, Refusal, RobotStatus, StopReason
+from gestureapp.robot.watchdog import find_stale
+
+DECIDING_S = 0.3
+"""A decision follows the left arm's start within the 160 ms budget; the line is kept free meanwhile."""
+ARMING_LIMIT_S = 2.0
+"""Releasing a hold and reading the state back takes a few answers; longer means it does not work."""
+
+
+@dataclass(frozen=True, slots=True)
+class ToRobot:
+    """Bytes for the controller."""
+
+    data: bytes
+
+
+@dataclass(frozen=True, slots=True)
+class DropRobot:
+    """Close the socket and open a new one."""
+
+    reason: str
+
+
+@dataclass(frozen=True, slots=True)
+class ToApp:
+    """A message for the application."""
+
+    message: m.FromGuardian
+
+
+Output = ToRobot | DropRobot | ToApp
+
+
+class Supervisor:
+    """Everything the guardian decides. Owned by the guardian's loop; one thread.
+
+    Every input method and ``tick`` may add outputs; the loop takes them with ``take_outputs``.
+
+    Attributes:
+        limits: Given at the start, never changed.
+        is_armed: The operator's permission.
+        latch: The stop that has not been left yet, or None.
+    """
+
+    def __init__(self, limits: Limits) -> None:
+        self.limits = limits
+        self.is_armed = False
+        self.latch: StopReason | None = None
+        self._exchange = Exchange()
+        self._stop = StopPath()
+        self._motion: Motion | None = None
+        self._release = Release()
+        self._polling = Polling(limits.frame)
+        self._command: Command | None = None
+        self._servo_wanted = False
+        self._arming_until_s: float | None = None
+        self._beat: m.Beat | None = None
+        self._start_seen_s = float("-inf")
+        self._read = Readings()
+        self._last_activation_id = 0
+        self._sent_s = 0.0
+        self._outputs: list[Output] = []
+
+    # What the loop asks.
+
+    @property
+    def is_stopping(self) -> bool:
+        """A stop is under way and not confirmed."""
+        return self._stop.is_active
+
+    @property
+    def is_link_open(self) -> bool:
+        """The controller has taken the session."""
+        return self._exchange.is_open
+
+    def take_outputs(self) -> list[Output]:
+        """What has to be done now, oldest first; asked for after every input."""
+        outputs, self._outputs = self._outputs, []
+        return outputs
+
+    def next_due_s(self, now_s: float) -> float:
+        """When ``tick`` has something to do at the latest."""
+        if self.is_armed or self._stop.is_active or self._motion is not None:
+            return min(now_s + 0.005, self._exchange.deadline_s)
+        return min(now_s + 0.02, self._exchange.deadline_s)
+
+    # Inputs from the robot's side.
+
+    def robot_connected(self, now_s: float) -> None:
+        """The socket to the controller is open."""
+        self._outputs.append(ToRobot(self._exchange.connected(now_s)))
+
+    def robot_bytes(self, data: bytes, now_s: float) -> None:
+        """Bytes from the controller."""
+        events, out = self._exchange.receive(data, now_s)
+        if out:
+            self._outputs.append(ToRobot(out))
+        self._handle(events, now_s)
+        self.tick(now_s)
+
+    def robot_ended(self, reason: str, now_s: float) -> None:
+        """The socket was closed or could not be opened."""
+        events = self._exchange.end(reason)
+        if not events:
+            self._tell(m.LinkReport(False, reason))
+        self._handle(events, now_s)
+
+    # Inputs from the application's side.
+
+    def message(self, message: m.Message, now_s: float) -> None:
+        """A message from the application."""
+        match message:
+            case m.Beat():
+                self._take_beat(message, now_s)
+            case m.Stop():
+                self.stop(message.reason, message.text, now_s)
+            case m.Propose():
+                self._propose(message, now_s)
+            case m.Arm():
+                self._ask_arm(now_s)
+            case m.Disarm():
+                self._disarm(now_s)
+            case m.ServoOn():
+                self._servo_wanted = not self.is_armed
+        self.tick(now_s)
+
+    def stop(self, reason: StopReason, text: str, now_s: float) -> None:
+        """The one place through which every stop goes, whoever asks."""
+        self._command = None
+        self._servo_wanted = False
+        self._release.cancel()
+        if reason.is_latched:
+            self.latch = self.latch or reason
+            self._lose_permission()
+        if self._stop.ask(reason, now_s):
+            self._tell(m.StopAsked(reason, text, now_s))
+
+    def tick(self, now_s: float) -> None:
+        """Look at every clock, then use the line if it is free."""
+        self._handle(self._exchange.check(now_s), now_s)
+        self._watch(now_s)
+        self._check_stop(now_s)
+        self._check_motion(now_s)
+        self._check_release()
+        self._check_arming(now_s)
+        if self._exchange.can_send:
+            self._send_next(now_s)
+
+    # Permission.
+
+    def _ask_arm(self, now_s: float) -> None:
+        refusal = self._arm_blocker(now_s)
+        if refusal is not None:
+            self._tell(m.ArmRefused(refusal))
+            return
+        self._arming_until_s = now_s + ARMING_LIMIT_S
+        if self._read.is_held_by_command:
+            self._release.begin()
+
+    def _arm_blocker(self, now_s: float) -> Refusal | None:
+        if not self._exchange.is_open:
+            return Refusal("no_link", "the robot does not answer")
+        if self._stop.is_active or self._motion is not None:
+            return Refusal("busy", "a move or a stop is under way")
+        refusal = self._read.too_old(STATUS_MAX_AGE_S, now_s) or robot_blocker(
+            self._read.status, ignore_own_hold=True
+        )
+        if refusal is not None:
+            return refusal
+        if self._beat is None or find_stale(self._beat, self.limits, now_s) is not None:
+            return Refusal("left_silent", "the left sensor is not heard")
+        return self._left_blocker()
+
+    def _left_blocker(self) -> Refusal | None:
+        if self._beat is None or not self._beat.is_left_stop:
+            return Refusal("left_not_stop", "the left arm is not in the stop posture")
+        return None
+
+    def _check_arming(self, now_s: float) -> None:
+        if self._arming_until_s is None or self._release.is_active:
+            return
+        refusal = robot_blocker(self._read.status) or self._left_blocker()
+        if refusal is None:
+            self._arming_until_s = None
+            self.is_armed = True
+            self.latch = None
+            self._tell(m.Armed())
+        elif now_s > self._arming_until_s:
+            self._arming_until_s = None
+            self._tell(m.ArmRefused(refusal))
+
+    def _disarm(self, now_s: float) -> None:
+        if self._motion is not None or self._command is not None:
+            self.stop(StopReason.DISARMED, "disarmed while the robot was moving", now_s)
+        self._lose_permission()
+
+    def _lose_permission(self) -> None:
+        self._arming_until_s = None
+        if self.is_armed:
+            self.is_armed = False
+            self._tell(m.Disarmed())
+
+    # The heartbeat and the watchdogs.
+
+    def _take_beat(self, beat: m.Beat, now_s: float) -> None:
+        if beat.is_left_start and not (self._beat and self._beat.is_left_start):
+            self._start_seen_s = now_s
+        self._beat = beat
+
+    def _watch(self, now_s: float) -> None:
+        if self._stop.is_active and self._stop.reason is not StopReason.LEFT_ARM:
+            return
+        if not (self.is_armed or self._motion is not None):
+            return
+        if self._beat is not None:
+            stale = find_stale(self._beat, self.limits, now_s)
+            if stale is not None:
+                self.stop(stale.reason, stale.text, now_s)
+
+    # Commands.
+
+    def _propose(self, message: m.Propose, now_s: float) -> None:
+        proposal = Proposal(message.activation_id, message.direction, message.t_s)
+        decision = decide(proposal, self._view(), self.limits, now_s)
+        if isinstance(decision, Refusal):
+            self._tell(m.CommandRefused(message.activation_id, decision))
+        else:
+            self._command = decision
+
+    def _view(self) -> GateView:
+        return GateView(
+            is_armed=self.is_armed,
+            latch=self.latch,
+            is_stopping=self._stop.is_active or self._release.is_active,
+            is_moving=self._motion is not None or self._command is not None,
+            last_activation_id=self._last_activation_id,
+            status=self._read.status,
+            status_s=self._read.status_s,
+            pose=self._read.pose,
+            pose_s=self._read.pose_s,
+            left_s=self._beat.left_s if self._beat else float("-inf"),
+            is_left_start=self._beat.is_left_start if self._beat else False,
+        )
+
+    def _begin_motion(self, command: Command, now_s: float) -> None:
+        """Look once more with the newest values, immediately before the bytes leave."""
+        self._command = None
+        again = decide(command.proposal, self._view(), self.limits, now_s)
+        if isinstance(again, Refusal):
+            self._tell(m.CommandRefused(command.proposal.activation_id, again))
+            return
+        self._motion = Motion(again, now_s)
+        self._last_activation_id = again.proposal.activation_id
+        self._send(again.permit, now_s)
+        planned = again.plan
+        self._tell(
+            m.CommandSent(
+                again.proposal.activation_id,
+                now_s,
+                planned.start,
+                planned.increment,
+                planned.limited_by,
+                again.speed,
+                again.proposal.direction.is_rotation,
+            )
+        )
+
+    # The wire.
+
+    def _send_next(self, now_s: float) -> None:
+        if self._stop.is_active:
+            self._send_if_allowed(self._stop.next_request(now_s, self.limits.frame), now_s)
+        elif (request := self._release.next_request(self.limits.frame)) is not None:
+            self._send_if_allowed(request, now_s)
+        elif self._command is not None:
+            self._begin_motion(self._command, now_s)
+        elif self._servo_wanted:
+            self._servo_wanted = False
+            self._send_if_allowed(nx100.SERVO_ON, now_s)
+        elif (poll := self._polling.next_request(now_s, self._pace(now_s))) is not None:
+            self._send_if_allowed(poll, now_s)
+
+    def _pace(self, now_s: float) -> Pace:
+        if self._motion is not None:
+            return Pace.MOVING
+        if self.is_armed and now_s - self._start_seen_s < DECIDING_S:
+            return Pace.DECIDING
+        if self._release.is_watching(now_s):
+            return Pace.WATCHING
+        return Pace.ARMED if self.is_armed else Pace.IDLE
+
+    def _send_if_allowed(self, request: Request, now_s: float) -> None:
+        allowed = permit(request, self._view())
+        if isinstance(allowed, Refusal):
+            self._tell(m.Notice(f"{request} was not sent: {allowed.text}"))
+            return
+        self._send(allowed, now_s)
+
+    def _send(self, allowed: Permit, now_s: float) -> None:
+        self._outputs.append(ToRobot(self._exchange.send(allowed, now_s)))
+        self._sent_s = now_s
+        self._stop.sent(allowed.request, now_s)
+
+    # What the controller says.
+
+    def _handle(self, events: list[ExchangeEvent], now_s: float) -> None:
+        for event in events:
+            match event:
+                case Opened():
+                    self._tell(m.LinkReport(True, event.banner))
+                    self._polling.restart()
+                case Answered():
+                    self._answered(event, now_s)
+                case LinkBroken():
+                    self._link_broken(event, now_s)
+
+    def _answered(self, event: Answered, now_s: float) -> None:
+        self._stop.answered(event.request, event.answer, self._sent_s, now_s)
+        self._release.answered(event.request, event.answer, now_s)
+        match event.answer:
+            case RobotStatus():
+                self._take_status(event.answer, now_s)
+            case Pose():
+                self._take_pose(event.answer, now_s)
+            case Alarms():
+                self._read.alarms = event.answer.codes
+                self._report_status(now_s)
+            case Failure() if event.request.name != "IMOV":
+                self._tell(m.Notice(f"the robot refused {event.request}: {event.answer.words}"))
+        if event.request.name == "IMOV":
+            self._command_answered(event, now_s)
+
+    def _command_answered(self, event: Answered, now_s: float) -> None:
+        motion = self._motion
+        if motion is None:
+            return
+        activation_id = motion.command.proposal.activation_id
+        if isinstance(event.answer, Failure):
+            self._motion = None
+            refusal = Refusal("robot_refused", f"the robot refused: {event.answer.words}")
+            self._tell(m.CommandRefused(activation_id, refusal))
+        else:
+            motion.accepted(now_s)
+            self._tell(m.CommandAccepted(activation_id, now_s))
+
+    def _take_status(self, status: RobotStatus, now_s: float) -> None:
+        self._read.status, self._read.status_s = status, now_s
+        if not (status.has_alarm or status.has_error):
+            self._read.alarms = ()
+        elif not self._read.alarms:
+            self._polling.want_alarms()
+        self._report_status(now_s)
+        if self._motion is not None:
+            self._motion.note_status(status, self._sent_s)
+        self._judge_status(status, now_s)
+
+    def _judge_status(self, status: RobotStatus, now_s: float) -> None:
+        """A robot that changes by itself while it may move is stopped, latched."""
+        if self._stop.is_active:
+            return
+        may_move = self.is_armed or self._motion is not None
+        if status.is_running and self._motion is None and (may_move or self._release.is_active):
+            text = "the robot runs without a command of ours; it is held again"
+            self.stop(StopReason.UNEXPECTED_MOTION, text, now_s)
+        elif may_move and (status.has_alarm or status.has_error):
+            self.stop(StopReason.ROBOT_ALARM, "the robot has an alarm", now_s)
+        elif may_move:
+            refusal = robot_blocker(status, ignore_own_hold=self._motion is None)
+            if refusal is not None and refusal.reason != "running":
+                self.stop(StopReason.ROBOT_CHANGED, refusal.text, now_s)
+
+    def _take_pose(self, pose: Pose, now_s: float) -> None:
+        self._read.pose, self._read.pose_s = pose, now_s
+        self._tell(m.PoseReport(now_s, pose))
+        if self._motion is not None:
+            self._motion.note_pose(pose, self._sent_s)
+
+    def _report_status(self, now_s: float) -> None:
+        status = self._read.status
+        if status is not None:
+            alarms = self._read.alarms
+            self._tell(m.StatusReport(now_s, status.data_1, status.data_2, alarms))
+
+    def _link_broken(self, event: LinkBroken, now_s: float) -> None:
+        self._outputs.append(DropRobot(event.reason))
+        self._tell(m.LinkReport(False, event.reason))
+        self._read = Readings()
+        self._stop.link_broken()
+        if self.is_armed or self._motion is not None or self._release.is_active:
+            self.stop(StopReason.LINK_LOST, event.reason, now_s)
+        self._lose_permission()
+
+    # What the clocks say.
+
+    def _check_stop(self, now_s: float) -> None:
+        outcome = self._stop.check(now_s)
+        if outcome is None:
+            return
+        if isinstance(outcome, Standstill):
+            self._motion = None
+            self._tell(m.StopConfirmed(outcome.reason, outcome.took_s, outcome.pose))
+        else:
+            self._tell(m.StopUnconfirmed(outcome.reason, outcome.text))
+
+    def _check_motion(self, now_s: float) -> None:
+        if self._motion is None or self._stop.is_active:
+            return
+        outcome = self._motion.check(now_s)
+        activation_id = self._motion.command.proposal.activation_id
+        if isinstance(outcome, Reached):
+            self._motion = None
+            self._tell(m.MotionEnded(activation_id, outcome.pose))
+        elif isinstance(outcome, StoppedShort):
+            self.stop(outcome.reason, outcome.text, now_s)
+
+    def _check_release(self) -> None:
+        """After the left arm's own stop the hold is released, once that arm is back in stop."""
+        if self._release.take_done():
+            self._tell(m.HoldReleased())
+        is_free = not (self._stop.is_active or self._release.is_active or self._motion)
+        is_due = self._read.is_held_by_command and self._left_blocker() is None
+        if self.is_armed and is_free and is_due:
+            self._release.begin()
+
+    def _tell(self, message: m.FromGuardian) -> None:
+        self._outputs.append(ToApp(message))
