@@ -38,11 +38,17 @@ class ConfigError(GestureAppError):
 
 
 class SensorError(GestureAppError):
-    """A sensor's port could not be used. Attribute ``sensor``: ``left`` or ``right``."""
+    """A sensor's port could not be used.
+
+    Attributes:
+        sensor: ``left`` or ``right``.
+        reason: Cause and remedy in one line, without the sensor's name.
+    """
 
     def __init__(self, sensor: str, reason: str) -> None:
         super().__init__(f"{sensor} sensor: {reason}")
         self.sensor = sensor
+        self.reason = reason
 
 
 class SensorNotFound(SensorError):

@@ -10,8 +10,8 @@ class SampleStore:
     """The newest samples of one stream.
 
     One thread appends, any thread reads, and nobody waits for anybody: a row is written before the
-    count moves, and a reader takes the count first and drops the rows that may have been overwritten
-    while it copied.
+    count moves, and a reader takes the count first and drops the rows that may have been
+    overwritten while it copied.
     """
 
     def __init__(self, capacity: int = 6000) -> None:
@@ -33,8 +33,8 @@ class SampleStore:
         """The samples of the last ``span_s`` seconds before the newest one.
 
         Returns:
-            A copy of shape (n, 4), oldest first: receive time in s on the monotonic clock, then x, y,
-            z in g. Empty before the first sample.
+            A copy of shape (n, 4), oldest first: receive time in s on the monotonic clock, then
+            x, y, z in g. Empty before the first sample.
         """
         before = self._count
         n = min(before, self._capacity)

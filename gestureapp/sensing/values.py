@@ -16,7 +16,7 @@ class Frame:
     """One packet on the wire, as sent.
 
     Attributes:
-        counter: The running number that the sensor put into it, or None where the protocol has none.
+        counter: The running number that the sensor put into it, or None where there is none.
         raw: x, y, z in the protocol's own unit (g for ``csv``, counts for ``adxl330``).
     """
 
@@ -40,6 +40,16 @@ class Garbage:
 
 
 @dataclass(frozen=True, slots=True)
+class Repeated(Garbage):
+    """A frame with the running number of the one before: old news, so it is no sample."""
+
+
+@dataclass(frozen=True, slots=True)
+class Impossible(Garbage):
+    """A frame that could be read, with a value that the sensor cannot give. ``n_bytes`` is 0."""
+
+
+@dataclass(frozen=True, slots=True)
 class CounterGap:
     """The running number jumped: frames were lost on the way. ``missed`` says how many."""
 
@@ -47,6 +57,24 @@ class CounterGap:
 
 
 DecoderEvent = Frame | Garbage | CounterGap
+
+
+@dataclass(frozen=True, slots=True)
+class Connected:
+    """The port is open. ``port`` is its name as set."""
+
+    port: str
+
+
+@dataclass(frozen=True, slots=True)
+class Disconnected:
+    """The port could not be opened or is gone. ``reason``: one line with cause and remedy."""
+
+    reason: str
+
+
+SensorEvent = Garbage | CounterGap | Connected | Disconnected
+"""What a sensor's reader tells besides samples."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,0 +1,90 @@
+"""What the left arm says: stop, start or neither. Pure: samples in, posture out."""
+
+import math
+
+from gestureapp.sensing.values import ArmPosture
+
+QUIET_MIN_G = 0.6
+QUIET_MAX_G = 1.4
+"""Outside of this the arm is shaken or thrown: the direction says nothing about its posture."""
+
+
+class PostureDetector:
+    """Follows the left arm's posture with hysteresis and a debounce.
+
+    Stop is level: the reading points to +Z. Start is turned about Y: it points to -X (paper,
+    figure 8). A posture is taken after ``debounce`` samples in a row within ``enter_deg`` of it,
+    and kept up to ``leave_deg``. It is left after ``debounce`` samples in a row that do not show
+    it, whatever they show. A sample whose magnitude is far from 1 g shows no posture, so it ends
+    one and starts none. Owned by one thread.
+
+    Args:
+        enter_deg: The arm comes into a posture within this angle of it.
+        leave_deg: It stays so up to this angle; at least ``enter_deg``.
+        debounce: Samples in a row that a change needs; at least 1.
+
+    Raises:
+        ValueError: the angles are out of order or the two postures would overlap, or no debounce.
+    """
+
+    def __init__(self, enter_deg: float, leave_deg: float, debounce: int) -> None:
+        if not 0 < enter_deg <= leave_deg or not enter_deg + leave_deg < 90:
+            raise ValueError(
+                f"posture angles {enter_deg} and {leave_deg} degrees: leave must be at least "
+                "enter, and both together below 90"
+            )
+        if debounce < 1:
+            raise ValueError(f"posture debounce {debounce}: at least 1 sample")
+        self._enter_deg = enter_deg
+        self._leave_deg = leave_deg
+        self._debounce = debounce
+        self._posture = ArmPosture.NEITHER
+        self._shown = ArmPosture.NEITHER
+        self._n_shown = 0
+        self._n_away = 0
+
+    @property
+    def posture(self) -> ArmPosture:
+        """The posture after the last sample; neither before the first."""
+        return self._posture
+
+    def reset(self) -> None:
+        """Forget everything, as after a lost sensor: a posture must be shown anew."""
+        self._take(ArmPosture.NEITHER)
+
+    def feed(self, accel_g: tuple[float, float, float]) -> ArmPosture:
+        """Take the next sample of the left arm, x, y, z in g; the posture from now on."""
+        shown = self._shown_by(accel_g)
+        if shown is self._posture:
+            self._take(shown)
+            return shown
+        self._n_away += 1
+        self._n_shown = self._n_shown + 1 if shown is self._shown else 1
+        self._shown = shown
+        if self._n_shown >= self._debounce:
+            self._take(shown)
+        elif self._n_away >= self._debounce:
+            self._posture = ArmPosture.NEITHER
+        return self._posture
+
+    def _take(self, posture: ArmPosture) -> None:
+        self._posture = posture
+        self._shown = posture
+        self._n_shown = 0
+        self._n_away = 0
+
+    def _shown_by(self, accel_g: tuple[float, float, float]) -> ArmPosture:
+        """What a single sample shows, seen from the present posture."""
+        x, _, z = accel_g
+        magnitude_g = math.hypot(*accel_g)
+        if not QUIET_MIN_G <= magnitude_g <= QUIET_MAX_G:
+            return ArmPosture.NEITHER
+        if self._is_within(z / magnitude_g, ArmPosture.STOP):
+            return ArmPosture.STOP
+        if self._is_within(-x / magnitude_g, ArmPosture.START):
+            return ArmPosture.START
+        return ArmPosture.NEITHER
+
+    def _is_within(self, cosine: float, posture: ArmPosture) -> bool:
+        limit_deg = self._leave_deg if posture is self._posture else self._enter_deg
+        return math.degrees(math.acos(max(-1.0, min(1.0, cosine)))) <= limit_deg
