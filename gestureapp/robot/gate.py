@@ -97,6 +97,8 @@ class GateView:
         pose: Last RPOSC, read at ``pose_s``.
         left_s: Receive time of the newest left sample.
         is_left_start: The left arm holds the start posture.
+        is_left_stop: The left arm holds the stop posture.
+        is_link_open: The controller has taken the session.
     """
 
     is_armed: bool
@@ -110,6 +112,8 @@ class GateView:
     pose_s: float
     left_s: float
     is_left_start: bool
+    is_left_stop: bool
+    is_link_open: bool
 
 
 @dataclass(frozen=True, slots=True)
@@ -178,6 +182,30 @@ def decide(proposal: Proposal, view: GateView, limits: Limits, now_s: float) -> 
     return Command(proposal, planned, speed, Permit(request))
 
 
+def arm_blocker(
+    view: GateView, limits: Limits, now_s: float, *, ignore_own_hold: bool
+) -> Refusal | None:
+    """What stands against giving permission.
+
+    Args:
+        view: As everything is now.
+        limits: Of the site.
+        now_s: Monotonic clock.
+        ignore_own_hold: A HOLD by command does not count: arming releases it.
+    """
+    if not view.is_link_open:
+        return Refusal("no_link", "the robot does not answer")
+    if view.is_stopping or view.is_moving:
+        return Refusal("busy", "a move or a stop is under way")
+    for t_s, text in ((view.status_s, "the robot's state"), (view.pose_s, "the robot's position")):
+        age_s = now_s - t_s
+        if not 0 <= age_s <= STATUS_MAX_AGE_S:
+            asked, limit = f"{age_s:.2f} s", f"{STATUS_MAX_AGE_S:.2f} s"
+            return Refusal("status_age", f"{text} is {asked} old, limit {limit}", asked, limit)
+    refusal = robot_blocker(view.status, ignore_own_hold=ignore_own_hold)
+    return refusal or _left_silent(view, limits, now_s) or _left_not_stop(view)
+
+
 def robot_blocker(status: RobotStatus | None, *, ignore_own_hold: bool = False) -> Refusal | None:
     """What in the controller's own state stands against a move."""
     if status is None:
@@ -233,12 +261,21 @@ def _freshness(proposal: Proposal, view: GateView, limits: Limits, now_s: float)
 
 
 def _left_arm(view: GateView, limits: Limits, now_s: float) -> Refusal | None:
+    if not view.is_left_start:
+        return Refusal("left_not_start", "the left arm is not in the start posture")
+    return _left_silent(view, limits, now_s)
+
+
+def _left_not_stop(view: GateView) -> Refusal | None:
+    if view.is_left_stop:
+        return None
+    return Refusal("left_not_stop", "the left arm is not in the stop posture")
+
+
+def _left_silent(view: GateView, limits: Limits, now_s: float) -> Refusal | None:
     age_s = now_s - view.left_s
     if not age_s <= limits.trip_level_s:
         asked, limit = f"{age_s:.3f} s", f"{limits.trip_level_s:.3f} s"
-        return Refusal(
-            "left_silent", f"left sensor silent for {asked}, limit {limit}", asked, limit
-        )
-    if not view.is_left_start:
-        return Refusal("left_not_start", "the left arm is not in the start posture")
+        text = f"left sensor silent for {asked}, limit {limit}"
+        return Refusal("left_silent", text, asked, limit)
     return None

@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 
-from gestureapp.robot.values import Pose, Refusal, RobotStatus
+from gestureapp.robot.values import Pose, RobotStatus
 
 
 @dataclass(slots=True)
@@ -27,12 +27,3 @@ class Readings:
     def is_held_by_command(self) -> bool:
         """HOLD 1 is on, as far as is known."""
         return self.status is not None and self.status.is_held_by_command
-
-    def too_old(self, limit_s: float, now_s: float) -> Refusal | None:
-        """A refusal when state or position are older than a limit."""
-        age_s = now_s - min(self.status_s, self.pose_s)
-        if age_s <= limit_s:
-            return None
-        return Refusal(
-            "status_age", "the robot's state is too old", f"{age_s:.2f} s", f"{limit_s} s"
-        )

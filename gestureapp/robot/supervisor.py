@@ -8,24 +8,23 @@ servo power, then polling. At most one request is in flight, so a stop waits for
 most.
 """
 
-from dataclasses import dataclass
-
 from gestureapp.robot import messages as m
 from gestureapp.robot import nx100
 from gestureapp.robot.exchange import Answered, Exchange, ExchangeEvent, LinkBroken, Opened
 from gestureapp.robot.gate import (
-    STATUS_MAX_AGE_S,
     Command,
     GateView,
     Limits,
     Permit,
     Proposal,
+    arm_blocker,
     decide,
     permit,
     robot_blocker,
 )
 from gestureapp.robot.motion import Motion, Reached, StoppedShort
 from gestureapp.robot.nx100 import Alarms, Failure, Request
+from gestureapp.robot.outputs import DropRobot, Output, ToApp, ToRobot
 from gestureapp.robot.polling import Pace, Polling
 from gestureapp.robot.readings import Readings
 from gestureapp.robot.release import Release
@@ -34,33 +33,10 @@ from gestureapp.robot.values import Pose, Refusal, RobotStatus, StopReason
 from gestureapp.robot.watchdog import find_stale
 
 DECIDING_S = 0.3
-"""A decision follows the left arm's start within the 160 ms budget; the line is kept free meanwhile."""
+"""A decision follows the left arm's start within the 160 ms budget; the line is kept
+free meanwhile."""
 ARMING_LIMIT_S = 2.0
-"""Releasing a hold and reading the state back takes a few answers; longer means it does not work."""
-
-
-@dataclass(frozen=True, slots=True)
-class ToRobot:
-    """Bytes for the controller."""
-
-    data: bytes
-
-
-@dataclass(frozen=True, slots=True)
-class DropRobot:
-    """Close the socket and open a new one."""
-
-    reason: str
-
-
-@dataclass(frozen=True, slots=True)
-class ToApp:
-    """A message for the application."""
-
-    message: m.FromGuardian
-
-
-Output = ToRobot | DropRobot | ToApp
+"""Releasing a hold and reading the state back takes a few answers; longer means it fails."""
 
 
 class Supervisor:
@@ -181,7 +157,7 @@ class Supervisor:
     # Permission.
 
     def _ask_arm(self, now_s: float) -> None:
-        refusal = self._arm_blocker(now_s)
+        refusal = arm_blocker(self._view(), self.limits, now_s, ignore_own_hold=True)
         if refusal is not None:
             self._tell(m.ArmRefused(refusal))
             return
@@ -189,29 +165,10 @@ class Supervisor:
         if self._read.is_held_by_command:
             self._release.begin()
 
-    def _arm_blocker(self, now_s: float) -> Refusal | None:
-        if not self._exchange.is_open:
-            return Refusal("no_link", "the robot does not answer")
-        if self._stop.is_active or self._motion is not None:
-            return Refusal("busy", "a move or a stop is under way")
-        refusal = self._read.too_old(STATUS_MAX_AGE_S, now_s) or robot_blocker(
-            self._read.status, ignore_own_hold=True
-        )
-        if refusal is not None:
-            return refusal
-        if self._beat is None or find_stale(self._beat, self.limits, now_s) is not None:
-            return Refusal("left_silent", "the left sensor is not heard")
-        return self._left_blocker()
-
-    def _left_blocker(self) -> Refusal | None:
-        if self._beat is None or not self._beat.is_left_stop:
-            return Refusal("left_not_stop", "the left arm is not in the stop posture")
-        return None
-
     def _check_arming(self, now_s: float) -> None:
         if self._arming_until_s is None or self._release.is_active:
             return
-        refusal = robot_blocker(self._read.status) or self._left_blocker()
+        refusal = arm_blocker(self._view(), self.limits, now_s, ignore_own_hold=False)
         if refusal is None:
             self._arming_until_s = None
             self.is_armed = True
@@ -271,7 +228,9 @@ class Supervisor:
             pose=self._read.pose,
             pose_s=self._read.pose_s,
             left_s=self._beat.left_s if self._beat else float("-inf"),
-            is_left_start=self._beat.is_left_start if self._beat else False,
+            is_left_start=self._beat is not None and self._beat.is_left_start,
+            is_left_stop=self._beat is not None and self._beat.is_left_stop,
+            is_link_open=self._exchange.is_open,
         )
 
     def _begin_motion(self, command: Command, now_s: float) -> None:
@@ -450,8 +409,8 @@ class Supervisor:
         if self._release.take_done():
             self._tell(m.HoldReleased())
         is_free = not (self._stop.is_active or self._release.is_active or self._motion)
-        is_due = self._read.is_held_by_command and self._left_blocker() is None
-        if self.is_armed and is_free and is_due:
+        is_left_stop = self._beat is not None and self._beat.is_left_stop
+        if self.is_armed and is_free and is_left_stop and self._read.is_held_by_command:
             self._release.begin()
 
     def _tell(self, message: m.FromGuardian) -> None:
