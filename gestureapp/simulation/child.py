@@ -1,0 +1,151 @@
+"""One emulator as a child process: started, heard until it is ready, ended with its parent."""
+
+import contextlib
+import os
+import re
+import subprocess
+import sys
+import threading
+from collections import deque
+from collections.abc import Sequence
+from pathlib import Path
+
+import gestureapp
+from gestureapp.clock import Clock, monotonic
+from gestureapp.errors import WorkerError
+from gestureapp.worker import Worker
+
+LINES_KEPT = 20
+
+_READY = re.compile(r"^(listening|control) on (\S+):(\d+)$")
+
+
+def program() -> list[str]:
+    """The command that runs this application, frozen or not."""
+    if getattr(sys, "frozen", False):
+        return [sys.executable]
+    return [sys.executable, "-m", "gestureapp"]
+
+
+class EmulatorProcess:
+    """A child that prints ``listening on HOST:PORT`` when it is ready.
+
+    Its standard input is a pipe that stays open as long as this process lives; the child ends with
+    it. Owned by one thread.
+
+    Attributes:
+        name: For a person.
+        port: Where it listens; 0 before it is ready.
+        control_port: Where its control lines go; 0 when there is none.
+    """
+
+    def __init__(self, name: str, command: Sequence[str]) -> None:
+        """Start the process.
+
+        Raises:
+            WorkerError: it cannot be started.
+        """
+        self.name = name
+        self.port = 0
+        self.control_port = 0
+        self._is_closing = False
+        self._heard = threading.Event()
+        self._last_lines: deque[str] = deque(maxlen=LINES_KEPT)
+        try:
+            self._process = subprocess.Popen(
+                command,
+                stdin=subprocess.PIPE,
+                stdout=subprocess.PIPE,
+                stderr=subprocess.STDOUT,
+                env=_environment(),
+                # Ctrl-C in the terminal is for the application, which ends its children in order.
+                start_new_session=os.name == "posix",
+                creationflags=getattr(subprocess, "CREATE_NO_WINDOW", 0),
+            )
+        except OSError as error:
+            raise WorkerError(name, f"cannot be started ({error})") from error
+        self._reader = Worker(f"{name} output", self._read)
+        self._reader.start()
+
+    def wait_ready(self, deadline_s: float, clock: Clock = monotonic) -> None:
+        """Wait until it listens.
+
+        Args:
+            deadline_s: Monotonic time.
+            clock: Monotonic seconds.
+
+        Raises:
+            WorkerError: it ended, or was not ready in time.
+        """
+        self._heard.wait(max(0.0, deadline_s - clock()))
+        if self.port == 0:
+            reason = self.problem or "is not ready in time; the machine may be too busy, try again"
+            raise WorkerError(self.name, reason)
+
+    @property
+    def pid(self) -> int:
+        """The process's id."""
+        return self._process.pid
+
+    @property
+    def problem(self) -> str:
+        """Empty while it runs or after ``close``; else how it ended and what it said last."""
+        if self._is_closing or self._reader.is_alive:
+            return ""
+        code = self._process.poll()
+        how = "closed its output" if code is None else f"ended with code {code}"
+        last = next((line for line in reversed(self._last_lines) if line), "no word")
+        return f"{how} ({last}); start the demo again"
+
+    def ask_to_end(self) -> None:
+        """Close its standard input. Idempotent."""
+        self._is_closing = True
+        if self._process.stdin is not None:
+            with contextlib.suppress(OSError):
+                self._process.stdin.close()
+
+    def close(self, wait_s: float = 1.0) -> None:
+        """End it: ask, wait, terminate, wait, kill. Idempotent."""
+        self.ask_to_end()
+        for force in (self._process.terminate, self._process.kill):
+            try:
+                self._process.wait(wait_s)
+                break
+            except subprocess.TimeoutExpired:
+                force()
+        self._process.wait()
+        self._reader.stop()
+        if self._process.stdout is not None:
+            self._process.stdout.close()
+
+    def _read(self, _: threading.Event) -> None:
+        """Hear the child to its end, so that its pipe never fills."""
+        if self._process.stdout is None:
+            return
+        try:
+            for raw in self._process.stdout:
+                self._hear(raw.decode("utf-8", "replace").rstrip())
+        finally:
+            self._heard.set()
+
+    def _hear(self, line: str) -> None:
+        self._last_lines.append(line)
+        match = _READY.match(line)
+        if match is None:
+            return
+        word, _, port = match.groups()
+        if word == "control":
+            self.control_port = int(port)
+        else:
+            self.port = int(port)
+            self._heard.set()
+
+
+def _environment() -> dict[str, str]:
+    """Ours, with this package in reach and no threads inside numpy."""
+    environment = dict(os.environ)
+    home = str(Path(gestureapp.__file__).resolve().parent.parent)
+    paths = [home, *environment.get("PYTHONPATH", "").split(os.pathsep)]
+    environment["PYTHONPATH"] = os.pathsep.join(path for path in paths if path)
+    environment.update(OPENBLAS_NUM_THREADS="1", OMP_NUM_THREADS="1")
+    return environment
