@@ -1,0 +1,251 @@
+"""Model files: a trained network with what made it, as readable JSON."""
+
+import json
+import math
+from collections.abc import Mapping
+from dataclasses import asdict, dataclass
+from pathlib import Path
+from typing import NoReturn
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gestureapp.errors import ModelInvalid
+from gestureapp.recognition.files import write_atomically
+from gestureapp.recognition.network import Network
+
+FORMAT = "gestureapp model"
+SCHEMA = 1
+KIND_PAPER = "paper"
+WINDOW_SAMPLES = 3
+"""Samples of the right arm that the network of kind ``paper`` sees. Source: paper, IV.B."""
+INPUT_PAPER = (
+    "specific force in g of the first three samples at or after the activation: "
+    "x, y, z of the first, then of the second, then of the third"
+)
+LARGEST_FILE = 16_000_000
+"""Bytes; a model takes some 10 kB."""
+
+
+@dataclass(frozen=True, slots=True)
+class TrainingRecord:
+    """What made a model.
+
+    Attributes:
+        preset: Name of the recipe.
+        rule: The learning rule in words.
+        cycles: Passes over the takes.
+        learning_rate: Step size.
+        seed: Of the first weights (and of the held-out takes).
+        n_takes: How many takes it has learned from, held-out ones included.
+        loss: Final error: half the squared error summed over the outputs, averaged over the takes.
+        duration_s: How long it took.
+        takes_from: Where the takes came from, in words.
+    """
+
+    preset: str
+    rule: str
+    cycles: int
+    learning_rate: float
+    seed: int
+    n_takes: int
+    loss: float
+    duration_s: float
+    takes_from: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Model:
+    """A trained network, for one person and one gesture set.
+
+    Attributes:
+        kind: Which recogniser it is for: ``paper``.
+        labels: The gestures, in the order of the outputs.
+        network: The weights.
+        person: Whose takes it was trained from; empty when unknown or several.
+        training: What made it.
+        takes_fingerprint: ``TakeSet.fingerprint()`` of those takes.
+        app_version: Version of the application that made it.
+        created: Wall time, ISO 8601 with zone; for people only.
+        input_words: What the inputs are.
+    """
+
+    kind: str
+    labels: tuple[str, ...]
+    network: Network
+    person: str
+    training: TrainingRecord
+    takes_fingerprint: str
+    app_version: str
+    created: str
+    input_words: str = INPUT_PAPER
+
+    @property
+    def shape(self) -> tuple[int, int, int]:
+        """Number of inputs, hidden neurons and outputs."""
+        return self.network.shape
+
+
+def save_model(path: Path, model: Model) -> None:
+    """Write a model file, atomically.
+
+    Raises:
+        DiskFull: no room is left there.
+        RecordingError: it cannot be written there.
+    """
+    network = model.network
+    content = {
+        "format": FORMAT,
+        "schema": SCHEMA,
+        "kind": model.kind,
+        "person": model.person,
+        "labels": list(model.labels),
+        "shape": list(model.shape),
+        "input": model.input_words,
+        "training": asdict(model.training),
+        "takes_fingerprint": model.takes_fingerprint,
+        "app_version": model.app_version,
+        "created": model.created,
+        "weights": {
+            "hidden": network.hidden.tolist(),
+            "hidden_bias": network.hidden_bias.tolist(),
+            "output": network.output.tolist(),
+            "output_bias": network.output_bias.tolist(),
+        },
+    }
+    text = json.dumps(content, indent=1, ensure_ascii=False, allow_nan=False)
+    write_atomically(path, text.encode() + b"\n")
+
+
+def load_model(path: Path) -> Model:
+    """Read a model file.
+
+    Raises:
+        ModelInvalid: it cannot be read, is no model, is damaged, or is from a newer version.
+    """
+    content = _read_object(path)
+    if content.get("format") != FORMAT:
+        raise ModelInvalid(path, "is not a model of this application")
+    schema = content.get("schema")
+    if not isinstance(schema, int) or schema < 1:
+        raise ModelInvalid(path, f"has no usable schema version (found {schema!r})")
+    if schema > SCHEMA:
+        raise ModelInvalid(
+            path,
+            f"is from a newer version (schema {schema}, this one reads up to {SCHEMA}); update",
+        )
+    try:
+        return _model(content)
+    except ValueError as error:
+        raise ModelInvalid(path, f"is damaged: {error}; train it again") from error
+
+
+def _read_object(path: Path) -> Mapping[str, object]:
+    try:
+        if path.stat().st_size > LARGEST_FILE:
+            raise ModelInvalid(path, "is far too large for a model")
+        content = json.loads(path.read_bytes().decode("utf-8"), parse_constant=_refuse_constant)
+    except OSError as error:
+        raise ModelInvalid(path, f"cannot be read: {error.strerror or error}") from error
+    except (ValueError, RecursionError) as error:
+        cause = (str(error) or type(error).__name__).splitlines()[0]
+        raise ModelInvalid(path, f"is not a readable model file: {cause}") from error
+    if not isinstance(content, dict):
+        raise ModelInvalid(path, "is not a model of this application")
+    return content
+
+
+def _model(content: Mapping[str, object]) -> Model:
+    kind = _text(content, "kind")
+    if kind != KIND_PAPER:
+        raise ValueError(f"unknown kind {kind!r}")
+    labels = _labels(content.get("labels"))
+    weights = _object(content, "weights")
+    network = Network(
+        hidden=_table(weights, "hidden", 2),
+        hidden_bias=_table(weights, "hidden_bias", 1),
+        output=_table(weights, "output", 2),
+        output_bias=_table(weights, "output_bias", 1),
+    )
+    if list(network.shape) != content.get("shape"):
+        raise ValueError(f"'shape' says {content.get('shape')}, the weights {list(network.shape)}")
+    if network.shape[0] != 3 * WINDOW_SAMPLES:
+        raise ValueError(f"it has {network.shape[0]} inputs, expected {3 * WINDOW_SAMPLES}")
+    if network.shape[2] != len(labels):
+        raise ValueError(f"{network.shape[2]} outputs for {len(labels)} labels")
+    return Model(
+        kind=kind,
+        labels=labels,
+        network=network,
+        person=_text(content, "person"),
+        training=_training(_object(content, "training")),
+        takes_fingerprint=_text(content, "takes_fingerprint"),
+        app_version=_text(content, "app_version"),
+        created=_text(content, "created"),
+        input_words=_text(content, "input"),
+    )
+
+
+def _training(record: Mapping[str, object]) -> TrainingRecord:
+    return TrainingRecord(
+        preset=_text(record, "preset"),
+        rule=_text(record, "rule"),
+        cycles=int(_number(record, "cycles")),
+        learning_rate=_number(record, "learning_rate"),
+        seed=int(_number(record, "seed")),
+        n_takes=int(_number(record, "n_takes")),
+        loss=_number(record, "loss"),
+        duration_s=_number(record, "duration_s"),
+        takes_from=_text(record, "takes_from"),
+    )
+
+
+def _labels(value: object) -> tuple[str, ...]:
+    if not isinstance(value, list) or not value:
+        raise ValueError("'labels' is missing")
+    if not all(isinstance(label, str) and label for label in value):
+        raise ValueError("'labels' must hold texts")
+    if len(set(value)) != len(value):
+        raise ValueError("'labels' names a gesture twice")
+    return tuple(value)
+
+
+def _object(content: Mapping[str, object], name: str) -> Mapping[str, object]:
+    value = content.get(name)
+    if not isinstance(value, dict):
+        raise ValueError(f"'{name}' is missing")
+    return value
+
+
+def _text(content: Mapping[str, object], name: str) -> str:
+    value = content.get(name)
+    if not isinstance(value, str):
+        raise ValueError(f"'{name}' must be a text")
+    return value
+
+
+def _number(content: Mapping[str, object], name: str) -> float:
+    value = content.get(name)
+    if isinstance(value, bool) or not isinstance(value, int | float):
+        raise ValueError(f"'{name}' must be a number")
+    try:
+        number = float(value)
+    except OverflowError as error:
+        raise ValueError(f"'{name}' is too large") from error
+    if not math.isfinite(number):
+        raise ValueError(f"'{name}' is not finite")
+    return number
+
+
+def _table(weights: Mapping[str, object], name: str, ndim: int) -> NDArray[np.float64]:
+    try:
+        table = np.array(weights.get(name))
+        if table.ndim != ndim or table.dtype.kind not in "fi":
+            raise ValueError(f"the weights '{name}' must be numbers in {ndim} dimensions")
+        return table.astype(np.float64)
+    except (TypeError, OverflowError) as error:
+        raise ValueError(f"the weights '{name}' cannot be used") from error
+
+
+def _refuse_constant(name: str) -> NoReturn:
+    raise ValueError(f"it holds {name}")

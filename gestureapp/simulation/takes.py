@@ -1,0 +1,82 @@
+"""Takes by simulated people, as their sensors would have sent them. Pure."""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gestureapp.gestures import LABELS
+from gestureapp.recognition.takes import TakeSet
+from gestureapp.simulation.arm import RightArm
+from gestureapp.simulation.people import Person, draw_person, practised_person
+
+BEFORE_S = 0.5
+"""A take begins this long before its activation …"""
+AFTER_S = 1.0
+"""… and ends this long after it: 1.5 s, the paper's nine minutes for 12 x 30 takes."""
+
+_ACTIVATION_S = 2.0
+_DRAW_TAKES = 4
+
+
+def make_takes(
+    people: int,
+    takes: int,
+    seed: int,
+    session: int = 1,
+    rate_hz: float = 100.0,
+    practised: bool = False,
+) -> TakeSet:
+    """Let simulated people repeat each of the twelve gestures.
+
+    Args:
+        people: How many people; the seed alone fixes who they are.
+        takes: Takes of each gesture by each person.
+        seed: Which set of people.
+        session: Which day; fresh takes with that day's drift.
+        rate_hz: Sample rate.
+        practised: Trained operators instead of ordinary people.
+
+    Raises:
+        ValueError: a number is not positive, or the rate is not between 20 and 1000 Hz.
+    """
+    if people < 1 or takes < 1 or session < 1 or seed < 0:
+        raise ValueError("people, takes and session must be at least 1, and the seed at least 0")
+    if not 20.0 <= rate_hz <= 1000.0:
+        raise ValueError(f"the rate must lie between 20 and 1000 Hz, found {rate_hz}")
+    draw = practised_person if practised else draw_person
+    parts: list[NDArray[np.float64]] = []
+    labels: list[str] = []
+    users: list[str] = []
+    for index in range(people):
+        person = draw(seed, index, session)
+        parts += make_person_takes(person, takes, rate_hz)
+        labels += [label for label in LABELS for _ in range(takes)]
+        users += [person.name] * (takes * len(LABELS))
+    return TakeSet(
+        samples=np.concatenate(parts),
+        offsets=np.cumsum([0, *(len(part) for part in parts)]),
+        labels=tuple(labels),
+        activation=np.full(len(labels), round(BEFORE_S * rate_hz)),
+        user=tuple(users),
+        session=(str(session),) * len(labels),
+        rate_hz=rate_hz,
+    )
+
+
+def make_person_takes(
+    person: Person, takes: int, rate_hz: float = 100.0
+) -> list[NDArray[np.float64]]:
+    """One person's readings, shape (k, 3) in g: all takes of the first gesture, then of the next.
+
+    The right sensor's samples fall at random between those of the left, so the first of them at or
+    after the activation is up to one sample late, as in the cell.
+    """
+    rng = np.random.default_rng([person.seed, person.index, person.session, _DRAW_TAKES])
+    n_before, n_after = round(BEFORE_S * rate_hz), round(AFTER_S * rate_hz)
+    ticks = np.arange(-n_before, n_after)
+    readings = []
+    for number, label in enumerate(label for label in LABELS for _ in range(takes)):
+        arm = RightArm(person, number)
+        arm.perform_for(label, _ACTIVATION_S)
+        times_s = _ACTIVATION_S + (ticks + rng.uniform()) / rate_hz
+        readings.append(person.right_sensor.read(arm.accel_at(times_s), rng))
+    return readings
