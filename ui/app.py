@@ -1,0 +1,140 @@
+"""Starts Qt, shows the window, and makes sure that whatever ends it stops the robot first."""
+
+import logging
+import os
+import signal
+import sys
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from types import FrameType, TracebackType
+
+from PySide6.QtCore import QMessageLogContext, Qt, QTimer, QtMsgType, qInstallMessageHandler
+from PySide6.QtGui import QGuiApplication
+from PySide6.QtWidgets import QApplication
+
+from gestureapp.cell.controls import CellControls
+from ui.main_window import MainWindow
+from ui.theme import Theme
+from ui.virtual_operator import VirtualOperator
+
+log = logging.getLogger(__name__)
+
+ExceptHook = Callable[[type[BaseException], BaseException, TracebackType | None], object]
+
+_QT_LEVELS = {
+    QtMsgType.QtDebugMsg: logging.DEBUG,
+    QtMsgType.QtInfoMsg: logging.INFO,
+    QtMsgType.QtWarningMsg: logging.WARNING,
+    QtMsgType.QtCriticalMsg: logging.ERROR,
+    QtMsgType.QtFatalMsg: logging.CRITICAL,
+}
+
+
+def run_window(
+    cell: CellControls,
+    virtual: VirtualOperator | None = None,
+    exit_after_s: float | None = None,
+) -> int:
+    """Show the cell until the window is closed; then the cell is shut down.
+
+    Ctrl+C and a request to terminate close the window as its own button does.
+
+    Args:
+        cell: The running cell.
+        virtual: Moves the emulated arms; its panel is shown when it is given.
+        exit_after_s: Close the window by itself after this time, for unattended runs.
+
+    Returns:
+        The exit code: 0.
+    """
+    choose_platform()
+    app = _application()
+    Theme(app)
+    try:
+        window = MainWindow(cell, virtual)
+        with _hooks(cell, window):
+            _fit(window)
+            if exit_after_s is not None:
+                QTimer.singleShot(round(exit_after_s * 1000), window, window.close)
+            return app.exec()
+    finally:
+        cell.shutdown()
+
+
+def choose_platform() -> None:
+    """Take Qt's offscreen platform on a Linux machine without a screen, and say so."""
+    has_choice = "QT_QPA_PLATFORM" in os.environ
+    has_screen = os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY")
+    if sys.platform.startswith("linux") and not has_choice and not has_screen:
+        os.environ["QT_QPA_PLATFORM"] = "offscreen"
+        sys.stderr.write(
+            "No screen (DISPLAY and WAYLAND_DISPLAY are empty): the window is drawn off screen.\n"
+        )
+
+
+def stopping_hook(cell: CellControls, before: ExceptHook) -> ExceptHook:
+    """An excepthook that stops the robot first and reports the error after.
+
+    Args:
+        cell: Whose robot.
+        before: The hook for what is no error of the program: Ctrl+C.
+    """
+
+    def hook(kind: type[BaseException], error: BaseException, trace: TracebackType | None) -> None:
+        cell.stop()
+        if issubclass(kind, KeyboardInterrupt):
+            before(kind, error, trace)
+            return
+        log.critical(
+            "an error nobody handled; the robot was stopped", exc_info=(kind, error, trace)
+        )
+
+    return hook
+
+
+def _application() -> QApplication:
+    existing = QApplication.instance()
+    if isinstance(existing, QApplication):
+        return existing
+    QGuiApplication.setHighDpiScaleFactorRoundingPolicy(
+        Qt.HighDpiScaleFactorRoundingPolicy.PassThrough
+    )
+    app = QApplication(sys.argv[:1])
+    app.setApplicationName("gestureapp")
+    app.setApplicationDisplayName("gestureapp")
+    return app
+
+
+def _fit(window: MainWindow) -> None:
+    screen = window.screen().availableGeometry()
+    window.resize(screen.size())
+    window.move(screen.topLeft())
+    window.showMaximized()
+
+
+@contextmanager
+def _hooks(cell: CellControls, window: MainWindow) -> Iterator[None]:
+    """Qt's messages, unhandled errors and signals, for as long as the window lives."""
+
+    def close(number: int, frame: FrameType | None) -> None:
+        log.info("signal %d: closing", number)
+        window.close()
+
+    old_messages = qInstallMessageHandler(_log_qt_message)
+    old_hook = sys.excepthook
+    sys.excepthook = stopping_hook(cell, old_hook)
+    # Python sees a signal as soon as the window's timer runs next.
+    old_signals = {
+        number: signal.signal(number, close) for number in (signal.SIGINT, signal.SIGTERM)
+    }
+    try:
+        yield
+    finally:
+        for number, handler in old_signals.items():
+            signal.signal(number, handler)
+        sys.excepthook = old_hook
+        qInstallMessageHandler(old_messages)
+
+
+def _log_qt_message(kind: QtMsgType, context: QMessageLogContext, message: str) -> None:
+    log.log(_QT_LEVELS.get(kind, logging.WARNING), "Qt: %s", message)

@@ -1,0 +1,99 @@
+"""What the right arm said: the gesture, where it sends the robot, how certain, and how fast."""
+
+from PySide6.QtCore import Qt
+from PySide6.QtWidgets import QFrame, QHBoxLayout, QProgressBar, QVBoxLayout, QWidget
+
+from gestureapp.gestures import gesture
+from gestureapp.recognition.values import Recognition
+from gestureapp.robot.values import Direction
+from ui.direction_view import DirectionView
+from ui.labels import BigWord, plain
+from ui.output_bars import OutputBars
+from ui.theme import LARGE_PX, SMALL_PX, TEXT_PX, sized
+from ui.words import decision_text, not_recognised_text
+
+NOTHING = "-"
+"""The big label while there is no gesture to name."""
+
+
+class GesturePanel(QFrame):
+    """The last recognition. "Not recognised" is a normal, calm state of it."""
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.setObjectName("gesturePanel")
+        self._shown: tuple[Recognition | None, Direction | None] | None = None
+        title = plain("gestureTitle", TEXT_PX, is_wrapped=False)
+        title.setText("Recognised gesture")
+        sized(title, TEXT_PX, is_bold=True)
+        self._label = BigWord("RX+", 64, 130)
+        self._label.setObjectName("gestureLabel")
+        self._words = plain("gestureWords", LARGE_PX)
+        self._arrow = DirectionView()
+        self._certainty = QProgressBar()
+        self._certainty.setObjectName("certaintyBar")
+        self._certainty.setRange(0, 100)
+        self._certainty.setMaximumHeight(20)
+        self._time = plain("decisionLabel", SMALL_PX)
+        self._bars = OutputBars()
+        said = QVBoxLayout()
+        said.setSpacing(2)
+        said.addWidget(self._label, 1)
+        said.addWidget(self._words)
+        top = QHBoxLayout()
+        top.addLayout(said, 3)
+        top.addWidget(self._arrow, 2)
+        layout = QVBoxLayout(self)
+        layout.setContentsMargins(10, 6, 10, 6)
+        layout.setSpacing(4)
+        layout.addWidget(title)
+        layout.addLayout(top, 3)
+        layout.addWidget(self._certainty)
+        layout.addWidget(self._time)
+        layout.addWidget(self._bars, 2)
+        # Two lines are kept for texts that come and go, so that nothing jumps.
+        for text in (self._words, self._time):
+            text.setAlignment(Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignTop)
+            text.setMinimumHeight(2 * text.fontMetrics().lineSpacing())
+        self.show_recognition(None, None)
+
+    def show_recognition(
+        self, recognition: Recognition | None, direction: Direction | None
+    ) -> None:
+        """Show another answer, with the direction it asks of the robot."""
+        if (recognition, direction) == self._shown:
+            return
+        self._shown = (recognition, direction)
+        self._arrow.show_direction(direction)
+        self._bars.show_outputs(recognition.outputs if recognition is not None else ())
+        if recognition is None:
+            self._show(NOTHING, "no gesture yet", 0.0, "")
+        elif recognition.label is None:
+            best = recognition.best[0].confidence if recognition.best else 0.0
+            reason = f"not recognised: {not_recognised_text(recognition)}"
+            self._show(NOTHING, reason, best, decision_text(recognition))
+        else:
+            certainty = _certainty_of(recognition)
+            words = _words_of(recognition.label)
+            self._show(recognition.label, words, certainty, decision_text(recognition))
+
+    def _show(self, label: str, words: str, certainty: float, time: str) -> None:
+        self._label.setText(label)
+        self._label.setAccessibleName(f"Recognised gesture: {label} {words}")
+        self._words.setText(words)
+        percent = round(100 * min(1.0, max(0.0, certainty)))
+        self._certainty.setValue(percent)
+        self._certainty.setFormat(f"certainty {certainty:.2f}" if time else "")
+        self._certainty.setAccessibleName(f"Certainty {percent} %")
+        self._time.setText(time)
+
+
+def _certainty_of(recognition: Recognition) -> float:
+    return next((c.confidence for c in recognition.outputs if c.label == recognition.label), 0.0)
+
+
+def _words_of(label: str) -> str:
+    try:
+        return gesture(label).words
+    except KeyError:
+        return ""  # a model may know gestures that this window has no words for

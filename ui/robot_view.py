@@ -1,0 +1,213 @@
+"""The field of operation from the side and from above, to scale, with the tool and its way."""
+
+from dataclasses import dataclass
+
+from PySide6.QtCore import QLineF, QPointF, QRectF, QSize, Qt
+from PySide6.QtGui import QColor, QFont, QPainter, QPaintEvent, QPen, QPolygonF
+from PySide6.QtWidgets import QSizePolicy, QWidget
+
+from gestureapp.cell.snapshot import RobotView
+from gestureapp.config import RobotSettings
+from gestureapp.robot.values import Pose, PoseIncrement
+from ui.theme import SMALL_PX, TEXT_PX, Colours, colours_of
+from ui.words import end_of, pose_age_text
+
+_PATH_STEP_MM = 2.0
+_PATH_LIMIT = 2000
+"""Points kept of the path; at 2 mm each longer than the field is wide."""
+_ROOM_PX = 20
+
+
+@dataclass(frozen=True, slots=True)
+class Plane:
+    """Which two axes a view shows, and its heading."""
+
+    title: str
+    across: int
+    up: int
+
+
+SIDE = Plane("Side view", 0, 2)
+TOP = Plane("Top view", 0, 1)
+
+
+class FieldView(QWidget):
+    """Both views beside each other at one scale. GUI thread only, owned by the window.
+
+    Attributes:
+        path_mm: Where the tool has been since the move began, robot frame.
+    """
+
+    def __init__(self, settings: RobotSettings, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.setObjectName("robotView")
+        self.path_mm: list[tuple[float, float, float]] = []
+        self._settings = settings
+        self._robot = RobotView(False, "")
+        self._move: tuple[Pose | None, PoseIncrement | None] = (None, None)
+        self._drawn: tuple[object, ...] = ()
+        self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Expanding)
+        self.setAccessibleName("Robot: no position")
+
+    def sizeHint(self) -> QSize:
+        """Two squares."""
+        return QSize(480, 250)
+
+    def minimumSizeHint(self) -> QSize:
+        """Small, but the axes can still be read."""
+        return QSize(360, 170)
+
+    def show_robot(self, robot: RobotView) -> None:
+        """Show another moment; repaints only when something has moved."""
+        if (robot.start, robot.increment) != self._move:
+            self._move = (robot.start, robot.increment)
+            self.path_mm = []
+        self._robot = robot
+        if robot.pose is not None:
+            self._extend_path(robot.pose)
+        drawn = (robot.pose, self._move, len(self.path_mm), pose_age_text(robot))
+        if drawn != self._drawn:
+            self._drawn = drawn
+            self._say(robot)
+            self.update()
+
+    def paintEvent(self, event: QPaintEvent) -> None:
+        """Draw both views."""
+        painter = QPainter(self)
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+        colours = colours_of(self.palette())
+        half = self.width() / 2
+        for i, plane in enumerate((SIDE, TOP)):
+            area = QRectF(i * half, 0, half, self.height()).adjusted(2, 0, -2, 0)
+            _View(painter, area, plane, self._settings, colours).draw(self._robot, self.path_mm)
+        painter.end()
+
+    def _extend_path(self, pose: Pose) -> None:
+        here = pose.position_mm
+        if self.path_mm:
+            gone = sum((a - b) ** 2 for a, b in zip(here, self.path_mm[-1], strict=True))
+            if gone < _PATH_STEP_MM**2:
+                return
+        self.path_mm.append(here)
+        del self.path_mm[:-_PATH_LIMIT]
+
+    def _say(self, robot: RobotView) -> None:
+        if robot.pose is None:
+            self.setAccessibleName("Robot: no position")
+        else:
+            where = "X {:.0f} Y {:.0f} Z {:.0f} mm".format(*robot.pose.position_mm)
+            self.setAccessibleName(f"Robot: tool at {where}")
+
+
+class _View:
+    """One view while it is painted: the scale and the pens."""
+
+    def __init__(
+        self,
+        painter: QPainter,
+        area: QRectF,
+        plane: Plane,
+        settings: RobotSettings,
+        colours: Colours,
+    ) -> None:
+        self._painter = painter
+        self._plane = plane
+        self._settings = settings
+        self._colours = colours
+        self._frame = area.adjusted(0, TEXT_PX + 6, 0, 0)
+        self._title = QRectF(area.left() + 8, area.top(), area.width() - 8, TEXT_PX + 6)
+        room = min(self._frame.width(), self._frame.height()) / 2 - _ROOM_PX
+        self._scale = max(room, 10.0) / settings.ext_radius_mm
+        self._font = QFont(painter.font())
+
+    def draw(self, robot: RobotView, path_mm: list[tuple[float, float, float]]) -> None:
+        """Draw everything of this view."""
+        self._painter.save()
+        self._draw_field()
+        self._draw_axes()
+        self._painter.setClipRect(self._frame)
+        if len(path_mm) > 1:
+            self._painter.setPen(QPen(QColor(self._colours.text), 2))
+            self._painter.drawPolyline(QPolygonF([self._at(point) for point in path_mm]))
+        if robot.start is not None and robot.increment is not None:
+            self._draw_plan(robot.start, robot.increment)
+        if robot.pose is not None:
+            self._draw_tool(robot.pose)
+        old = pose_age_text(robot)
+        if old:
+            self._write(self._frame.adjusted(6, 4, -6, -4), old, Qt.AlignmentFlag.AlignHCenter)
+        self._painter.restore()
+
+    def _at(self, position_mm: tuple[float, float, float]) -> QPointF:
+        across, up = position_mm[self._plane.across], position_mm[self._plane.up]
+        return self._frame.center() + QPointF(across, -up) * self._scale
+
+    def _draw_field(self) -> None:
+        painter, colours = self._painter, self._colours
+        painter.fillRect(self._frame, QColor(colours.panel))
+        centre = self._frame.center()
+        for radius_mm, fill in (
+            (self._settings.ext_radius_mm, colours.base),
+            (self._settings.int_radius_mm, colours.panel),
+        ):
+            radius = radius_mm * self._scale
+            painter.setPen(QPen(QColor(colours.line), 1.5))
+            painter.setBrush(QColor(fill))
+            painter.drawEllipse(centre, radius, radius)
+            corner = centre + QPointF(-0.707, 0.707) * radius
+            label = QRectF(corner.x() - 2, corner.y() - 17, 60, 16)
+            self._write(label, f"R {radius_mm:.0f}", Qt.AlignmentFlag.AlignLeft)
+        painter.setBrush(Qt.BrushStyle.NoBrush)
+
+    def _draw_axes(self) -> None:
+        painter, frame = self._painter, self._frame
+        centre = frame.center()
+        names = "XYZ"
+        self._write(self._title, self._plane.title, Qt.AlignmentFlag.AlignLeft, is_bold=True)
+        painter.setPen(QPen(QColor(self._colours.line), 1))
+        painter.drawLine(QLineF(frame.left(), centre.y(), frame.right(), centre.y()))
+        painter.drawLine(QLineF(centre.x(), frame.top(), centre.x(), frame.bottom()))
+        for mm in range(-1000, 1001, 500):
+            step = mm * self._scale
+            painter.drawLine(
+                QLineF(centre.x() + step, centre.y() - 3, centre.x() + step, centre.y() + 3)
+            )
+            painter.drawLine(
+                QLineF(centre.x() - 3, centre.y() - step, centre.x() + 3, centre.y() - step)
+            )
+        if self._settings.ext_radius_mm > 1000:
+            at = centre.x() + 1000 * self._scale
+            below = QRectF(at - 30, centre.y() + 3, 60, 16)
+            self._write(below, "1000", Qt.AlignmentFlag.AlignHCenter)
+        across, up = f"{names[self._plane.across]} mm", f"{names[self._plane.up]} mm"
+        right = QRectF(frame.right() - 54, centre.y() - 18, 50, 16)
+        self._write(right, across, Qt.AlignmentFlag.AlignRight)
+        self._write(QRectF(centre.x() + 5, frame.top() + 1, 60, 16), up, Qt.AlignmentFlag.AlignLeft)
+
+    def _draw_plan(self, start: Pose, increment: PoseIncrement) -> None:
+        begin = self._at(start.position_mm)
+        end = self._at(end_of(start, increment).position_mm)
+        blue = QColor(self._colours.info)
+        self._painter.setPen(QPen(blue, 2, Qt.PenStyle.DashLine))
+        self._painter.drawLine(begin, end)
+        self._painter.setPen(QPen(blue, 2))
+        self._painter.drawEllipse(begin, 3, 3)
+        self._painter.drawRect(QRectF(end.x() - 4, end.y() - 4, 8, 8))
+
+    def _draw_tool(self, pose: Pose) -> None:
+        here = self._at(pose.position_mm)
+        self._painter.setPen(QPen(QColor(self._colours.text), 1.5))
+        self._painter.drawLine(here - QPointF(9, 0), here + QPointF(9, 0))
+        self._painter.drawLine(here - QPointF(0, 9), here + QPointF(0, 9))
+        self._painter.setBrush(QColor(self._colours.text))
+        self._painter.drawEllipse(here, 4, 4)
+        self._painter.setBrush(Qt.BrushStyle.NoBrush)
+
+    def _write(
+        self, area: QRectF, text: str, alignment: Qt.AlignmentFlag, is_bold: bool = False
+    ) -> None:
+        self._font.setBold(is_bold)
+        self._font.setPixelSize(TEXT_PX if is_bold else SMALL_PX - 1)
+        self._painter.setFont(self._font)
+        self._painter.setPen(QColor(self._colours.text if is_bold else self._colours.muted))
+        self._painter.drawText(area, alignment | Qt.AlignmentFlag.AlignTop, text)

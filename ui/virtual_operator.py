@@ -1,0 +1,128 @@
+"""The virtual operator: buttons and keys that move the emulated arms. Only in simulation."""
+
+from collections.abc import Callable
+from functools import partial
+from typing import Protocol
+
+from PySide6.QtCore import Qt
+from PySide6.QtGui import QKeySequence, QShortcut
+from PySide6.QtWidgets import QFrame, QGridLayout, QHBoxLayout, QPushButton, QVBoxLayout, QWidget
+
+from gestureapp.gestures import GESTURES
+from ui.labels import ElidedLabel, plain
+from ui.theme import SMALL_PX, TEXT_PX, sized
+
+HOW = "A gesture is made with both arms together: the left arm is raised as the right arm moves"
+GESTURE_KEYS = {
+    "X+": "Up",
+    "X-": "Down",
+    "Y+": "Left",
+    "Y-": "Right",
+    "Z+": "PgUp",
+    "Z-": "PgDown",
+    "RX+": "Ctrl+Right",
+    "RX-": "Ctrl+Left",
+    "RY+": "Ctrl+Up",
+    "RY-": "Ctrl+Down",
+    "RZ+": "Ctrl+PgUp",
+    "RZ-": "Ctrl+PgDown",
+}
+"""Never Esc, Pause or Space: the first two stop, the third presses whatever has the focus."""
+
+
+class VirtualOperator(Protocol):
+    """Moves the emulated arms. No call blocks."""
+
+    def left_start(self) -> None:
+        """The left arm takes the start posture."""
+
+    def left_stop(self) -> None:
+        """The left arm takes the stop posture."""
+
+    def gesture(self, label: str) -> None:
+        """Both arms together: the left one is raised as the right one makes this gesture."""
+
+    def right_rest(self) -> None:
+        """The right arm goes back to rest."""
+
+    def silence_left(self) -> None:
+        """The left sensor sends nothing any more."""
+
+    def restore_sensors(self) -> None:
+        """Both sensors send as they should."""
+
+    def describe(self) -> str:
+        """What the arms are doing, in one line."""
+
+
+class VirtualOperatorPanel(QFrame):
+    """One button and one key for everything the emulated arms can do. GUI thread only."""
+
+    def __init__(self, operator: VirtualOperator, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.setObjectName("virtualOperatorPanel")
+        self._operator = operator
+        title = plain("virtualOperatorTitle", TEXT_PX, is_wrapped=False)
+        title.setText("Virtual operator")
+        sized(title, TEXT_PX, is_bold=True)
+        how = ElidedLabel(HOW)
+        how.setObjectName("virtualOperatorHow")
+        sized(how, SMALL_PX)
+        self._doing = ElidedLabel()
+        self._doing.setObjectName("virtualOperatorDoing")
+        sized(self._doing, SMALL_PX)
+        head = QHBoxLayout()
+        head.setSpacing(14)
+        head.addWidget(title)
+        head.addWidget(how, 3)
+        head.addWidget(self._doing, 2)
+        grid = QGridLayout()
+        grid.setSpacing(4)
+        self._add_buttons(grid)
+        layout = QVBoxLayout(self)
+        layout.setContentsMargins(10, 4, 10, 6)
+        layout.setSpacing(4)
+        layout.addLayout(head)
+        layout.addLayout(grid)
+
+    def refresh(self) -> None:
+        """Show what the arms are doing now."""
+        doing = self._operator.describe()
+        if doing != self._doing.text():
+            self._doing.setText(doing)
+
+    def _add_buttons(self, grid: QGridLayout) -> None:
+        operator = self._operator
+        last = 1 + len(GESTURES) // 2
+        for name, text, key, row, column, act in (
+            ("leftStart", "Left arm: START", "S", 0, 0, operator.left_start),
+            ("leftStop", "Left arm: STOP", "A", 1, 0, operator.left_stop),
+            ("rightRest", "Right arm: rest", "D", 0, last, operator.right_rest),
+            ("silenceLeft", "Silence left", "F", 0, last + 1, operator.silence_left),
+            ("restoreSensors", "Restore sensors", "G", 1, last + 1, operator.restore_sensors),
+        ):
+            grid.addWidget(self._button(name, text, key, act), row, column)
+        for i, gesture in enumerate(GESTURES):
+            label = gesture.label
+            button = self._button(
+                f"gesture_{label}",
+                f"{label} {gesture.words}",
+                GESTURE_KEYS[label],
+                partial(operator.gesture, label),
+            )
+            grid.addWidget(button, i // 6, 1 + i % 6)
+
+    def _button(self, name: str, text: str, key: str, act: Callable[[], None]) -> QPushButton:
+        sequence = QKeySequence(key)
+        shown = sequence.toString(QKeySequence.SequenceFormat.NativeText)
+        button = QPushButton(f"{text}\n{shown}")
+        button.setObjectName(name)
+        button.setAccessibleName(f"{text}, key {shown}")
+        button.setAutoDefault(False)
+        button.setFocusPolicy(Qt.FocusPolicy.TabFocus)
+        sized(button, SMALL_PX - 1)
+        button.clicked.connect(lambda: act())
+        shortcut = QShortcut(sequence, self, context=Qt.ShortcutContext.WindowShortcut)
+        shortcut.setAutoRepeat(False)
+        shortcut.activated.connect(button.click)
+        return button
