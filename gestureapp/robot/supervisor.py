@@ -81,6 +81,16 @@ class Supervisor:
         """The controller has taken the session."""
         return self._exchange.is_open
 
+    @property
+    def may_move(self) -> bool:
+        """Armed, or a command is open, or a stop is not confirmed."""
+        return self.is_armed or self._motion is not None or self._stop.is_active
+
+    @property
+    def has_commanded(self) -> bool:
+        """A move was sent and no standstill has been read back since."""
+        return self._motion is not None
+
     def take_outputs(self) -> list[Output]:
         """What has to be done now, oldest first; asked for after every input."""
         outputs, self._outputs = self._outputs, []

@@ -1,0 +1,301 @@
+"""The guardian process: it alone owns the robot's socket. One thread, one selector loop.
+
+The thinking is in ``supervisor``; here are only sockets and the clock. The application starts it,
+hands it one ``Start`` line on standard input, and connects twice: once from the control thread,
+once from the window. When either connection ends without a ``Bye``, the application counts as gone
+and the robot is stopped.
+"""
+
+import contextlib
+import logging
+import os
+import selectors
+import signal
+import socket
+import sys
+import time
+from dataclasses import dataclass
+
+from gestureapp.robot import messages as m
+from gestureapp.robot.outputs import DropRobot, ToApp, ToRobot
+from gestureapp.robot.supervisor import Supervisor
+from gestureapp.robot.values import StopReason
+
+log = logging.getLogger("guardian")
+
+HELLO_LIMIT_S = 5.0
+"""An application that has not connected by then has died on the way."""
+CONNECT_LIMIT_S = 1.0
+RETRY_S = 0.2
+"""Between two attempts to reach the controller; none while a stop waits for the line."""
+UNREACHABLE_LIMIT_S = 60.0
+"""How long a guardian without application goes on trying to reach a robot that may be moving."""
+BACKLOG_LIMIT = 1 << 20
+"""Bytes kept for an application that does not read; more is dropped, it is frozen anyway."""
+
+
+@dataclass(slots=True)
+class _Peer:
+    """One connection of the application."""
+
+    sock: socket.socket
+    role: m.Role | None = None
+    unread: bytes = b""
+    unsent: bytes = b""
+
+
+class Guardian:
+    """The loop around the supervisor. Owns every socket of the process."""
+
+    def __init__(self, start: m.Start, listener: socket.socket) -> None:
+        self._start = start
+        self._supervisor = Supervisor(start.limits)
+        self._selector = selectors.DefaultSelector()
+        self._listener = listener
+        self._listener.setblocking(False)
+        self._selector.register(listener, selectors.EVENT_READ)
+        self._peers: dict[socket.socket, _Peer] = {}
+        self._robot: socket.socket | None = None
+        self._is_connecting = False
+        self._connect_s = float("-inf")
+        self._born_s = time.monotonic()
+        self._was_greeted = False
+        self._gone_s: float | None = None
+        self._is_leaving = False
+        self.is_told_to_end = False
+
+    def run(self) -> int:
+        """Serve until the application is gone and the robot stands."""
+        while not self._is_over(time.monotonic()):
+            self._turn()
+        log.info("ends")
+        return 0
+
+    def _turn(self) -> None:
+        now_s = time.monotonic()
+        wait_s = max(0.0, self._supervisor.next_due_s(now_s) - now_s)
+        ready = self._selector.select(wait_s)
+        # The application first: a STOP must not wait for what the controller says.
+        for key, mask in sorted(ready, key=lambda item: item[0].fileobj is self._robot):
+            if key.fileobj is self._listener:
+                self._accept()
+            elif key.fileobj is self._robot:
+                self._robot_ready(mask)
+            else:
+                self._peer_ready(key.data, mask)
+        self._keep_robot(time.monotonic())
+        self._supervisor.tick(time.monotonic())
+        self._flush()
+
+    # The application's connections.
+
+    def _accept(self) -> None:
+        sock, _ = self._listener.accept()
+        sock.setblocking(False)
+        sock.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
+        peer = self._peers[sock] = _Peer(sock)
+        self._selector.register(sock, selectors.EVENT_READ, peer)
+
+    def _peer_ready(self, peer: _Peer, mask: int) -> None:
+        if mask & selectors.EVENT_WRITE:
+            self._send_unsent(peer)
+        if not mask & selectors.EVENT_READ:
+            return
+        try:
+            data = peer.sock.recv(65536)
+        except BlockingIOError:
+            return
+        except OSError:
+            data = b""
+        if not data:
+            self._peer_ended(peer)
+            return
+        *lines, peer.unread = (peer.unread + data).split(b"\n")
+        for line in lines:
+            self._peer_said(peer, line)
+        if len(peer.unread) > BACKLOG_LIMIT:
+            self._peer_ended(peer)
+
+    def _peer_said(self, peer: _Peer, line: bytes) -> None:
+        message = m.decode(line)
+        now_s = time.monotonic()
+        if peer.role is None:
+            if isinstance(message, m.Hello) and message.token == self._start.token:
+                peer.role = message.role
+                self._was_greeted = True
+            else:
+                log.warning("a connection without the token was closed")
+                self._close_peer(peer)
+        elif message is None:
+            log.warning("unreadable line from the application: %r", line[:80])
+        elif isinstance(message, m.Bye):
+            self._is_leaving = True
+        elif peer.role is m.Role.CONTROL or isinstance(message, m.Stop):
+            self._supervisor.message(message, now_s)
+            self._flush()
+
+    def _peer_ended(self, peer: _Peer) -> None:
+        role = peer.role
+        self._close_peer(peer)
+        if role is not None:
+            self._application_gone(f"its {role.value} connection ended")
+
+    def _close_peer(self, peer: _Peer) -> None:
+        if self._peers.pop(peer.sock, None) is not None:
+            self._selector.unregister(peer.sock)
+            peer.sock.close()
+
+    def _application_gone(self, how: str) -> None:
+        if self._gone_s is not None:
+            return
+        now_s = time.monotonic()
+        self._gone_s = now_s
+        if self._is_leaving and not self._supervisor.may_move:
+            return
+        log.warning("application gone: %s", how)
+        self._supervisor.stop(StopReason.APPLICATION_GONE, f"application gone: {how}", now_s)
+        self._supervisor.tick(now_s)
+        self._flush()
+
+    def _is_over(self, now_s: float) -> bool:
+        if self.is_told_to_end:
+            self._application_gone("told to end")
+        if self._gone_s is None:
+            return not self._was_greeted and now_s - self._born_s > HELLO_LIMIT_S
+        if not self._supervisor.is_stopping:
+            return True
+        is_reachable = self._supervisor.is_link_open or self._supervisor.has_commanded
+        return not is_reachable or now_s - self._gone_s > UNREACHABLE_LIMIT_S
+
+    # The controller's connection.
+
+    def _keep_robot(self, now_s: float) -> None:
+        if not self._start.host:
+            return
+        if self._robot is None:
+            pause_s = 0.02 if self._supervisor.is_stopping else RETRY_S
+            if now_s - self._connect_s >= pause_s:
+                self._connect(now_s)
+        elif self._is_connecting and now_s - self._connect_s > CONNECT_LIMIT_S:
+            self._robot_gone(f"no connection within {CONNECT_LIMIT_S:.0f} s")
+
+    def _connect(self, now_s: float) -> None:
+        self._connect_s = now_s
+        try:
+            address = (self._start.host, self._start.port)
+            family = socket.AF_INET6 if ":" in self._start.host else socket.AF_INET
+            sock = socket.socket(family, socket.SOCK_STREAM)
+            sock.setblocking(False)
+            sock.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
+            self._robot, self._is_connecting = sock, True
+            self._selector.register(sock, selectors.EVENT_READ | selectors.EVENT_WRITE)
+            with contextlib.suppress(BlockingIOError):
+                sock.connect(address)
+        except OSError as error:
+            self._robot_gone(str(error))
+
+    def _robot_ready(self, mask: int) -> None:
+        sock = self._robot
+        if sock is None:
+            return
+        now_s = time.monotonic()
+        if self._is_connecting:
+            error = sock.getsockopt(socket.SOL_SOCKET, socket.SO_ERROR)
+            if error:
+                self._robot_gone(os.strerror(error))
+                return
+            self._is_connecting = False
+            self._selector.modify(sock, selectors.EVENT_READ)
+            self._supervisor.robot_connected(now_s)
+            self._flush()
+        if mask & selectors.EVENT_READ:
+            self._read_robot(sock)
+
+    def _read_robot(self, sock: socket.socket) -> None:
+        try:
+            data = sock.recv(65536)
+        except BlockingIOError:
+            return
+        except OSError as error:
+            self._robot_gone(error.strerror or str(error))
+            return
+        if not data:
+            self._robot_gone("the controller closed the connection")
+            return
+        self._supervisor.robot_bytes(data, time.monotonic())
+        self._flush()
+
+    def _robot_gone(self, reason: str) -> None:
+        self._close_robot()
+        where = f"{self._start.host}:{self._start.port}"
+        self._supervisor.robot_ended(f"{where}: {reason}", time.monotonic())
+        self._flush()
+
+    def _close_robot(self) -> None:
+        sock, self._robot = self._robot, None
+        self._is_connecting = False
+        if sock is not None:
+            self._selector.unregister(sock)
+            sock.close()
+
+    # What goes out.
+
+    def _flush(self) -> None:
+        for output in self._supervisor.take_outputs():
+            match output:
+                case ToRobot():
+                    self._send_robot(output.data)
+                case DropRobot():
+                    log.warning("robot link dropped: %s", output.reason)
+                    self._close_robot()
+                case ToApp():
+                    self._tell(output.message)
+
+    def _send_robot(self, data: bytes) -> None:
+        if self._robot is None:
+            return
+        try:
+            sent = self._robot.send(data)
+        except OSError as error:
+            sent = -1
+            log.warning("robot link: %s", error)
+        if sent != len(data):
+            self._robot_gone("the controller takes no bytes")
+
+    def _tell(self, message: m.FromGuardian) -> None:
+        if isinstance(message, m.StopAsked | m.StopConfirmed | m.StopUnconfirmed):
+            log.warning("%s", message)
+        line = m.encode(message)
+        for peer in self._peers.values():
+            if peer.role is m.Role.CONTROL and len(peer.unsent) < BACKLOG_LIMIT:
+                peer.unsent += line
+                self._send_unsent(peer)
+
+    def _send_unsent(self, peer: _Peer) -> None:
+        with contextlib.suppress(OSError):  # a peer that is gone shows at its next read
+            sent = peer.sock.send(peer.unsent)
+            peer.unsent = peer.unsent[sent:]
+        writes = selectors.EVENT_WRITE if peer.unsent else 0
+        self._selector.modify(peer.sock, selectors.EVENT_READ | writes, peer)
+
+
+def main() -> int:
+    """The process: read ``Start``, say where it listens, serve. Returns the exit code."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C is for the application; it stops us
+    start = m.decode(sys.stdin.buffer.readline())
+    if not isinstance(start, m.Start):
+        sys.stderr.write("guardian: it is started by the application, not by hand\n")
+        return 2
+    if start.log:
+        form = "%(asctime)s %(levelname)s %(message)s"
+        logging.basicConfig(filename=start.log, level=logging.INFO, format=form)
+    with socket.create_server(("127.0.0.1", 0)) as listener:
+        sys.stdout.buffer.write(m.encode(m.Listening(listener.getsockname()[1])))
+        sys.stdout.buffer.flush()
+        guardian = Guardian(start, listener)
+
+        def told_to_end(_signal: int, _frame: object) -> None:
+            guardian.is_told_to_end = True
+
+        signal.signal(signal.SIGTERM, told_to_end)
+        return guardian.run()
