@@ -171,9 +171,10 @@ def _whole_numbers(name: str, array: NDArray[np.generic]) -> I64:
         raise ValueError(
             f"'{name}' must be one row of whole numbers, found {array.dtype} of shape {array.shape}"
         )
-    if array.dtype == np.uint64 and np.any(array > np.iinfo(np.int64).max):
+    whole = array.astype(np.int64)
+    if array.dtype.kind == "u" and np.any(whole < 0):
         raise ValueError(f"'{name}' holds a number that is too large")
-    return array.astype(np.int64)
+    return whole
 
 
 def _texts(name: str, array: NDArray[np.generic]) -> tuple[str, ...]:

@@ -1,5 +1,4 @@
-"""Training of the paper's network. The only module that uses torch; it runs in a process of its
-own.
+"""Training of the paper's network: the only module that uses torch, in a process of its own.
 
 Both presets write the gradients of the 9-10-12 sigmoid network by hand, over all takes at once. The
 window of a take is its first three samples from the activation, at the take's own rate: a model
@@ -302,7 +301,7 @@ def _network(first: F64, second: F64) -> Network:
     return Network(first[:-1].T, first[-1], second[:-1].T, second[-1])
 
 
-def _torch() -> Any:
+def _torch() -> Tensor:
     """Torch, imported when it is first needed, on one thread: two are slower on these sizes."""
     import torch
 

@@ -72,7 +72,7 @@ def make_person_takes(
     """
     rng = np.random.default_rng([person.seed, person.index, person.session, _DRAW_TAKES])
     n_before, n_after = round(BEFORE_S * rate_hz), round(AFTER_S * rate_hz)
-    ticks = np.arange(-n_before, n_after)
+    ticks = np.arange(-n_before, n_after, dtype=np.float64)
     readings = []
     for number, label in enumerate(label for label in LABELS for _ in range(takes)):
         arm = RightArm(person, number)
