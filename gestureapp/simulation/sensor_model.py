@@ -10,7 +10,6 @@ from gestureapp.sensing.values import Side
 from gestureapp.simulation.sensor_wire import (
     COUNTER_SPAN,
     ENCODERS,
-    FAULTY_ENCODERS,
     Accel,
     cut_line,
     garbage_like,
@@ -68,7 +67,7 @@ class FaultKind(Enum):
     TRUNCATED = "truncated"
     """Every line loses its end."""
     SPIKE = "spike"
-    """An impossible value on every axis."""
+    """An impossible value on every axis; a protocol of counts can say no more than its rail."""
     SLOW = "slow"
     """Too few samples a second."""
     UNPLUGGED = "unplugged"
@@ -231,9 +230,8 @@ class SensorModel:
 
     def _encoded(self, accel_g: Accel) -> Emission:
         kind = self.fault.kind
-        encoders = FAULTY_ENCODERS if kind is FaultKind.SPIKE else ENCODERS
         number = max(self._counter, 0)
-        data = encoders[self.protocol](number if self.has_counter else None, accel_g)
+        data = ENCODERS[self.protocol](number if self.has_counter else None, accel_g)
         line = Emission(data, number, accel_g)
         if kind is FaultKind.GARBAGE:
             return replace(line, data=garbage_like(data, self.rng))

@@ -45,16 +45,8 @@ def encode_adxl330(counter: int | None, accel_g: Accel) -> bytes:
     return _line(counter, fields, b"\r\n")
 
 
-def encode_adxl330_unclipped(counter: int | None, accel_g: Accel) -> bytes:
-    """The same line without the rails: what a bit fault on the way makes of a reading."""
-    return _line(counter, [str(_adxl330_count(value)) for value in accel_g], b"\r\n")
-
-
 ENCODERS: dict[str, Encoder] = {"csv": encode_csv, "adxl330": encode_adxl330}
 """By the name that the application's decoder has."""
-
-FAULTY_ENCODERS: dict[str, Encoder] = {"csv": encode_csv, "adxl330": encode_adxl330_unclipped}
-"""Able to say what no sensor says: 40 g."""
 
 
 def cut_line(line: bytes, rng: random.Random) -> bytes:

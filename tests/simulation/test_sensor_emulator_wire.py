@@ -1,0 +1,83 @@
+"""The emulator's encoders against the product's decoders, which share no code."""
+
+import random
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from gestureapp.sensing.protocols import protocol
+from gestureapp.sensing.values import DecoderEvent, Frame
+from gestureapp.simulation.sensor_wire import (
+    COUNTER_SPAN,
+    ENCODERS,
+    cut_line,
+    encode_adxl330,
+    encode_csv,
+    garbage_like,
+)
+
+COUNTERS = st.integers(0, COUNTER_SPAN - 1)
+HALF_STEP_G = {"csv": 0.5e-4, "adxl330": 0.5 * 3.0 / 1024 / 0.3}
+
+
+def accel(limit_g: float) -> st.SearchStrategy[tuple[float, float, float]]:
+    axis = st.floats(-limit_g, limit_g)
+    return st.tuples(axis, axis, axis)
+
+
+def decoded(name: str, data: bytes) -> list[DecoderEvent]:
+    decoder = protocol(name).new_decoder()
+    # The decoder may distrust what comes before the first line end: the stream was joined mid-line.
+    primed = ENCODERS[name](0, (0.0, 0.0, 1.0))
+    decoder.feed(primed)
+    return [*decoder.feed(data), *decoder.end()]
+
+
+@pytest.mark.parametrize("name", sorted(ENCODERS))
+@given(number=st.integers(1, 100), accel_g=accel(4.5))
+def test_a_decoded_line_says_what_was_encoded_within_half_a_step(name, number, accel_g):
+    line = ENCODERS[name](number, accel_g)
+    frames = [event for event in decoded(name, line) if isinstance(event, Frame)]
+    assert [frame.counter for frame in frames] == [number]
+    read_g = protocol(name).to_nominal_g(frames[0].raw)
+    assert read_g == pytest.approx(accel_g, abs=HALF_STEP_G[name] * 1.001)
+
+
+@given(number=COUNTERS)
+def test_the_running_number_is_the_first_field(number):
+    assert encode_csv(number, (0.5, -0.25, 1.0)) == b"%d,0.5000,-0.2500,1.0000\n" % number
+    assert encode_adxl330(number, (0.0, 1.0, -1.0)) == b"%d,512,614,410\r\n" % number
+
+
+def test_a_csv_line_may_leave_the_running_number_out():
+    line = encode_csv(None, (0.1, 0.2, 0.3))
+    assert line == b"0.1000,0.2000,0.3000\n"
+    assert decoded("csv", line)[-1] == Frame(None, (0.1, 0.2, 0.3))
+
+
+@given(accel_g=accel(1e6))
+def test_a_reading_beyond_the_converter_stays_at_its_rail(accel_g):
+    counts = [int(field) for field in encode_adxl330(None, accel_g).split(b",")]
+    assert all(0 <= count <= 1023 for count in counts)
+    for count, value_g in zip(counts, accel_g, strict=True):
+        if abs(value_g) > 5.0:
+            assert count == (1023 if value_g > 0 else 0)
+
+
+@pytest.mark.parametrize("name", sorted(ENCODERS))
+@given(number=COUNTERS, accel_g=accel(3.0), seed=st.integers(0, 999))
+def test_a_cut_line_has_lost_a_field(name, number, accel_g, seed):
+    line = ENCODERS[name](number, accel_g)
+    cut = cut_line(line, random.Random(seed))
+    assert 0 < len(cut) < len(line)
+    assert cut.count(b",") < line.count(b",")
+    assert line.startswith(cut.rstrip(b"\r\n"))
+
+
+@given(seed=st.integers(0, 99))
+def test_garbage_is_as_long_as_the_line(seed):
+    line = encode_csv(7, (0.0, 0.0, 1.0))
+    garbage = garbage_like(line, random.Random(seed))
+    assert len(garbage) == len(line)
+    assert garbage != line
