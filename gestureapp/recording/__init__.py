@@ -1,1 +1,1 @@
-"""Session files: written while the cell runs, read afterwards. Uses the engine, is used by none of it."""
+"""Session files: written while the cell runs, read afterwards. Nothing of the engine uses it."""
