@@ -16,9 +16,10 @@ SILENT_AFTER_S = 0.25
 REST_G = 0.15
 """All three samples nearer than this to (0, 0, 1) g: a resting hand, not a gesture.
 
-Measured with the preset ``paper`` on simulated people, 30 takes of each gesture to train and 12 x 100
-of another day: share recognised, and share of activations with a resting hand that were heard as a
-gesture. Eight ordinary people, whose sensors nobody has calibrated (gain error up to 10 %):
+Measured with the preset ``paper`` on simulated people, 30 takes of each gesture to train and
+12 x 100 of another day: share recognised, and share of activations with a resting hand that were
+heard as a gesture. Eight ordinary people with sensors that nobody has calibrated (gain error up
+to 10 %):
 
     level      none   0.06   0.08   0.10   0.12   0.15   0.20 g
     recognised 76.6   76.4   76.3   76.0   75.5   74.7   72.2 %
@@ -26,8 +27,8 @@ gesture. Eight ordinary people, whose sensors nobody has calibrated (gain error 
     at rest    12.1   10.2   9.3    8.3    6.6    4.3    0.5 %
 
 Four practised people with calibrated sensors: recognised 99.98 % up to 0.15 g and 99.92 % at 0.20;
-heard at rest 47.6 % without the guard, 8.5 % at 0.06, 0.3 % at 0.08 and none from 0.10 on. So 0.15 g
-costs an ordinary person 1.8 of 100 gestures, which were barely begun, and a practised one none.
+heard at rest 47.6 % without the guard, 8.5 % at 0.06, 0.3 % at 0.08 and none from 0.10 on. So
+0.15 g costs an ordinary person 1.8 of 100 gestures, which were barely begun, a practised one none.
 """
 HISTORY = 64
 """Samples kept, so that those received after the activation's time but before its call count."""

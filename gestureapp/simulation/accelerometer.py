@@ -40,9 +40,15 @@ class Accelerometer:
     def read(self, accel_g: F64, rng: np.random.Generator) -> F64:
         """Turn true specific force, shape (n, 3) or (3,), into readings of the same shape, in g."""
         noise = rng.standard_normal(accel_g.shape) * np.array(self.noise_g)
-        raw = accel_g * np.array(self.gain) + np.array(self.offset_g) + noise
-        clipped: F64 = np.clip(raw, -SATURATION_G, SATURATION_G)
-        return clipped
+        return _clipped(self._scaled(accel_g) + noise)
+
+    def without_noise(self, accel_g: F64) -> F64:
+        """What ``read`` gives on average, within the range."""
+        return _clipped(self._scaled(accel_g))
+
+    def _scaled(self, accel_g: F64) -> F64:
+        scaled: F64 = accel_g * np.array(self.gain) + np.array(self.offset_g)
+        return scaled
 
 
 def adxl330(rng: np.random.Generator, bandwidth_hz: float = 50.0) -> Accelerometer:
@@ -63,3 +69,8 @@ def adxl330(rng: np.random.Generator, bandwidth_hz: float = 50.0) -> Acceleromet
 def _triple(values: F64) -> tuple[float, float, float]:
     x, y, z = (float(v) for v in values)
     return x, y, z
+
+
+def _clipped(accel_g: F64) -> F64:
+    clipped: F64 = np.clip(accel_g, -SATURATION_G, SATURATION_G)
+    return clipped

@@ -9,12 +9,14 @@ RZ+ turns the hand to the left. The left arm's start posture reads ax = -1 g (pa
 """
 
 import math
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from gestureapp.config import SiteSettings
 from gestureapp.gestures import Gesture, Kind, gesture
+from gestureapp.sensing.posture import PostureDetector
 from gestureapp.sensing.values import ArmPosture
 from gestureapp.simulation.motion import (
     N_COORDINATES,
@@ -39,6 +41,7 @@ TURN_BACK_S = 1.2
 POSTURE_SETTLED_S = 0.15
 """A roll or pitch posture is held for at least this long when the activation comes (paper: it is a
 static measurement)."""
+_PHASES = 10
 _RIGHT = 1
 _LEFT = 2
 
@@ -236,7 +239,10 @@ class LeftArm:
         What was asked for and has not begun by then is dropped.
         """
         self._motion.cancel_from(t_s)
-        wiggle = 0.02 * np.clip(self._rng.standard_normal(), -2.0, 2.0)
+        spread = (
+            self.person.variation / 4.0
+        )  # the turn that both arms are timed by is well practised
+        wiggle = spread * np.clip(self._rng.standard_normal(), -2.0, 2.0)
         self._motion.add(_left_turn(self.person, self._motion, posture, t_s, 1.0 + float(wiggle)))
 
     def accel_g(self, t_s: float) -> Triple:
@@ -254,25 +260,34 @@ class LeftArm:
 
 
 def start_seen_after_s(person: Person, rate_hz: float = 100.0) -> float:
-    """From the moment the left arm begins to turn until it is seen in the start posture; the mean.
+    """From the moment the left arm begins to turn until its sensor shows the start posture.
 
-    It is seen when the reading has come within the site's default angle of (-1, 0, 0) for the
-    default number of samples in a row: on average that many samples less a half after it came
-    there. A virtual operator adds this to the start of the left arm's turn to get the expected
-    activation.
+    The mean over how the samples may fall, found with the detector that the cell uses, at its
+    default angles and debounce, for a turn of this person's usual pace without tremor. A virtual
+    operator adds this to the start of the left arm's turn to get the expected activation.
     """
-    site = SiteSettings()
     motion = Motion()
     motion.add(_left_turn(person, motion, ArmPosture.START, 0.0, 1.0))
-    times = np.arange(0.0, 2.0 * person.left_turn_s, 0.001)
-    still = np.random.default_rng(0)
-    worn = _left_worn(person, still, tremor_g=0.0, sway_rad=0.0)
-    accel = worn.accel(motion, times) * np.array(person.left_sensor.gain)
-    accel += np.array(person.left_sensor.offset_g)
-    angle_deg = np.degrees(np.arccos(-accel[:, 0] / np.linalg.norm(accel, axis=1)))
-    outside = np.flatnonzero(angle_deg > site.posture_enter_deg)
-    entered_s = float(times[min(outside[-1] + 1, len(times) - 1)])
-    return entered_s + (site.posture_debounce - 0.5) / rate_hz
+    worn = _left_worn(replace(person, tremor_g=0.0, sway_rad=0.0), np.random.default_rng(0))
+    n = math.ceil((2.0 * person.left_turn_s + 1.0) * rate_hz)
+    seen_s = []
+    for phase in (np.arange(_PHASES) + 0.5) / _PHASES:
+        times_s = (np.arange(n) + phase) / rate_hz
+        readings = person.left_sensor.without_noise(worn.accel(motion, times_s))
+        seen_s.append(float(times_s[_first_start(readings)]))
+    return float(np.mean(seen_s))
+
+
+def _first_start(readings: F64) -> int:
+    """Number of the first reading with which the start posture is seen; the last one if none is."""
+    site = SiteSettings()
+    detector = PostureDetector(
+        site.posture_enter_deg, site.posture_leave_deg, site.posture_debounce
+    )
+    for number, (x, y, z) in enumerate(readings.tolist()):
+        if detector.feed((x, y, z)) is ArmPosture.START:
+            return number
+    return len(readings) - 1
 
 
 def _is_held(wanted: Gesture) -> bool:
@@ -280,18 +295,8 @@ def _is_held(wanted: Gesture) -> bool:
     return wanted.kind is Kind.POSTURE and wanted.axis != 2
 
 
-def _left_worn(
-    person: Person,
-    rng: np.random.Generator,
-    tremor_g: float | None = None,
-    sway_rad: float | None = None,
-) -> WornSensor:
-    worn = WornSensor(
-        person.left_strap_rad,
-        person.tremor_g if tremor_g is None else tremor_g,
-        person.sway_rad if sway_rad is None else sway_rad,
-        rng,
-    )
+def _left_worn(person: Person, rng: np.random.Generator) -> WornSensor:
+    worn = WornSensor(person.left_strap_rad, person.tremor_g, person.sway_rad, rng)
     worn.before_wrist_m = person.left_radius_m
     return worn
 

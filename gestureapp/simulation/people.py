@@ -51,7 +51,7 @@ class Person:
         offset_spread_s: Standard deviation of it.
         left_turn_s: Duration of the left arm's turn from stop to start.
         left_turn_rad: Angle of it.
-        left_radius_m: Left elbow to sensor, shortened by how much the upper arm goes along.
+        left_radius_m: From the axis that the left hand turns about (near the sensor) to the sensor.
         right_sensor: The right accelerometer.
         left_sensor: The left accelerometer.
     """
@@ -138,7 +138,7 @@ def practised_person(seed: int, index: int = 0, session: int = 1) -> Person:
         left_strap_rad=_angles(rng, 0.8),
         offset_s=-0.030,
         offset_spread_s=0.006,
-        left_turn_s=uniform(0.30, 0.34),
+        left_turn_s=uniform(0.42, 0.46),
         left_turn_rad=np.radians(uniform(86.0, 92.0)),
         right_sensor=_calibrated(ordinary.right_sensor),
         left_sensor=_calibrated(ordinary.left_sensor),
@@ -182,9 +182,9 @@ def _draw_habit(seed: int, index: int, session: int) -> Person:
         left_strap_rad=_angles(rng, 3.0),
         offset_s=normal(-0.015, 0.015),
         offset_spread_s=uniform(0.015, 0.045),
-        left_turn_s=uniform(0.30, 0.45),
+        left_turn_s=uniform(0.42, 0.60),
         left_turn_rad=np.radians(uniform(80.0, 95.0)),
-        left_radius_m=uniform(0.05, 0.12),
+        left_radius_m=uniform(0.02, 0.05),
         right_sensor=adxl330(rng),
         left_sensor=adxl330(rng),
     )
