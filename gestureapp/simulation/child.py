@@ -4,27 +4,21 @@ import contextlib
 import os
 import re
 import subprocess
-import sys
 import threading
 from collections import deque
 from collections.abc import Sequence
-from pathlib import Path
 
-import gestureapp
+from gestureapp.children import child_environment
 from gestureapp.clock import Clock, monotonic
 from gestureapp.errors import WorkerError
 from gestureapp.worker import Worker
 
 LINES_KEPT = 20
 
+EXIT_WITHIN_S = 1.0
+"""A child that has closed its output ends within this, or is said to have closed its output."""
+
 _READY = re.compile(r"^(listening|control) on (\S+):(\d+)$")
-
-
-def program() -> list[str]:
-    """The command that runs this application, frozen or not."""
-    if getattr(sys, "frozen", False):
-        return [sys.executable]
-    return [sys.executable, "-m", "gestureapp"]
 
 
 class EmulatorProcess:
@@ -50,6 +44,7 @@ class EmulatorProcess:
         self.control_port = 0
         self._is_closing = False
         self._heard = threading.Event()
+        self._ended = threading.Event()
         self._last_lines: deque[str] = deque(maxlen=LINES_KEPT)
         try:
             self._process = subprocess.Popen(
@@ -57,7 +52,7 @@ class EmulatorProcess:
                 stdin=subprocess.PIPE,
                 stdout=subprocess.PIPE,
                 stderr=subprocess.STDOUT,
-                env=_environment(),
+                env=child_environment(),
                 # Ctrl-C in the terminal is for the application, which ends its children in order.
                 start_new_session=os.name == "posix",
                 creationflags=getattr(subprocess, "CREATE_NO_WINDOW", 0),
@@ -82,6 +77,10 @@ class EmulatorProcess:
             reason = self.problem or "is not ready in time; the machine may be too busy, try again"
             raise WorkerError(self.name, reason)
 
+    def wait_ended(self, limit_s: float) -> bool:
+        """Wait until the process has ended. Returns whether that was within the limit."""
+        return self._ended.wait(limit_s)
+
     @property
     def pid(self) -> int:
         """The process's id."""
@@ -90,7 +89,7 @@ class EmulatorProcess:
     @property
     def problem(self) -> str:
         """Empty while it runs or after ``close``; else how it ended and what it said last."""
-        if self._is_closing or self._reader.is_alive:
+        if self._is_closing or not self._ended.is_set():
             return ""
         code = self._process.poll()
         how = "closed its output" if code is None else f"ended with code {code}"
@@ -126,6 +125,9 @@ class EmulatorProcess:
             for raw in self._process.stdout:
                 self._hear(raw.decode("utf-8", "replace").rstrip())
         finally:
+            with contextlib.suppress(subprocess.TimeoutExpired):
+                self._process.wait(EXIT_WITHIN_S)  # its exit code follows the end of its output
+            self._ended.set()
             self._heard.set()
 
     def _hear(self, line: str) -> None:
@@ -139,13 +141,3 @@ class EmulatorProcess:
         else:
             self.port = int(port)
             self._heard.set()
-
-
-def _environment() -> dict[str, str]:
-    """Ours, with this package in reach and no threads inside numpy."""
-    environment = dict(os.environ)
-    home = str(Path(gestureapp.__file__).resolve().parent.parent)
-    paths = [home, *environment.get("PYTHONPATH", "").split(os.pathsep)]
-    environment["PYTHONPATH"] = os.pathsep.join(path for path in paths if path)
-    environment.update(OPENBLAS_NUM_THREADS="1", OMP_NUM_THREADS="1")
-    return environment

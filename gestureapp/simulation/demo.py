@@ -8,11 +8,12 @@ from types import TracebackType
 from typing import Self
 
 import gestureapp
+from gestureapp.children import child_command
 from gestureapp.clock import Clock, monotonic
 from gestureapp.config import PersonSettings, RobotSettings, SensorSettings, Settings
 from gestureapp.errors import GestureAppError
 from gestureapp.sensing.values import Side
-from gestureapp.simulation.child import EmulatorProcess, program
+from gestureapp.simulation.child import EmulatorProcess
 from gestureapp.simulation.operator import OperatorClient
 from gestureapp.simulation.operator_plan import Timing
 from gestureapp.simulation.sensor import DEMO_SEED, DEMO_SESSION
@@ -137,7 +138,7 @@ class DemoCell:
         self.close()
 
     def _spawn(self, name: str, arguments: Sequence[str]) -> EmulatorProcess:
-        command = [*(self.options.program or program()), "simulate", *arguments]
+        command = [*(self.options.program or child_command()), "simulate", *arguments]
         child = EmulatorProcess(name, [*command, "--exit-with-stdin"])
         self._children.append(child)
         self._opened.callback(child.close)

@@ -3,7 +3,7 @@
 import json
 
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from gestureapp.sensing.values import Side
@@ -128,12 +128,14 @@ WORDS = st.sampled_from(["perform", "rest", "take", "fault", "log", "state"])
 KEYS = st.sampled_from(["label", "at_s", "posture", "kind", "seconds", "rate_hz", "count", "burst"])
 
 
+@settings(deadline=None)
 @given(side=st.sampled_from(Side), word=WORDS, rest=st.dictionaries(KEYS, JSON))
 def test_any_values_are_survived_and_answered(side, word, rest):
     answer = ask(model_of(side), {**rest, "do": word})
     assert json.loads(json.dumps(answer))["ok"] in (True, False)
 
 
+@settings(deadline=None)
 @given(st.binary(max_size=60))
 def test_any_bytes_are_answered(line):
     assert answer_command(model_of(Side.LEFT), line, 0.0, StreamRecord())["ok"] in (True, False)

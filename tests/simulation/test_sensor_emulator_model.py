@@ -3,7 +3,7 @@
 from dataclasses import dataclass, field
 
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from gestureapp.sensing.values import Side
@@ -77,6 +77,7 @@ def test_the_newest_wish_replaces_one_that_waits():
     assert arm.begun == [(LIFT, 0.3)]
 
 
+@settings(deadline=None)
 @given(st.lists(st.tuples(st.floats(-5.0, 5.0), st.floats(0.0, 0.5)), max_size=20))
 def test_no_action_begins_before_a_time_that_was_already_sampled(steps):
     model, arm = sensor()

@@ -3,7 +3,7 @@
 import random
 
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from gestureapp.sensing.protocols import protocol
@@ -35,6 +35,7 @@ def decoded(name: str, data: bytes) -> list[DecoderEvent]:
 
 
 @pytest.mark.parametrize("name", sorted(ENCODERS))
+@settings(deadline=None)
 @given(number=st.integers(1, 100), accel_g=accel(4.5))
 def test_a_decoded_line_says_what_was_encoded_within_half_a_step(name, number, accel_g):
     line = ENCODERS[name](number, accel_g)
@@ -44,6 +45,7 @@ def test_a_decoded_line_says_what_was_encoded_within_half_a_step(name, number, a
     assert read_g == pytest.approx(accel_g, abs=HALF_STEP_G[name] * 1.001)
 
 
+@settings(deadline=None)
 @given(number=COUNTERS)
 def test_the_running_number_is_the_first_field(number):
     assert encode_csv(number, (0.5, -0.25, 1.0)) == b"%d,0.5000,-0.2500,1.0000\n" % number
@@ -56,6 +58,7 @@ def test_a_csv_line_may_leave_the_running_number_out():
     assert decoded("csv", line)[-1] == Frame(None, (0.1, 0.2, 0.3))
 
 
+@settings(deadline=None)
 @given(accel_g=accel(1e6))
 def test_a_reading_beyond_the_converter_stays_at_its_rail(accel_g):
     counts = [int(field) for field in encode_adxl330(None, accel_g).split(b",")]
@@ -66,6 +69,7 @@ def test_a_reading_beyond_the_converter_stays_at_its_rail(accel_g):
 
 
 @pytest.mark.parametrize("name", sorted(ENCODERS))
+@settings(deadline=None)
 @given(number=COUNTERS, accel_g=accel(3.0), seed=st.integers(0, 999))
 def test_a_cut_line_has_lost_a_field(name, number, accel_g, seed):
     line = ENCODERS[name](number, accel_g)
@@ -75,6 +79,7 @@ def test_a_cut_line_has_lost_a_field(name, number, accel_g, seed):
     assert line.startswith(cut.rstrip(b"\r\n"))
 
 
+@settings(deadline=None)
 @given(seed=st.integers(0, 99))
 def test_garbage_is_as_long_as_the_line(seed):
     line = encode_csv(7, (0.0, 0.0, 1.0))
