@@ -24,8 +24,8 @@ class SensorSettings:
     """One sensor: where it is and how its readings become g.
 
     Attributes:
-        port: Anything ``serial.serial_for_url`` opens: a device, ``socket://HOST:PORT``, ``loop://``.
-        protocol: Name of a decoder.
+        port: Anything ``serial.serial_for_url`` opens: a device, ``socket://HOST:PORT``,
+        ``loop://``. protocol: Name of a decoder.
         offset: Reading at zero g per axis, in g of the nominal scale.
         gain: Factor per axis after the offset; 1 is the nominal sensitivity.
     """
@@ -72,8 +72,9 @@ class RobotSettings:
     """The robot, its field of operation and its speeds.
 
     The field: two spheres around the robot frame's origin (paper, equation 1), and a range for each
-    angle. The defaults suit an HP6 without a tool: the wrist cannot be farther than 1378.5 mm from the
-    origin (150 + 570 + sqrt(155^2 + 640^2), its link lengths), and close to the column it folds up.
+    angle. The defaults suit an HP6 without a tool: the wrist cannot be farther than 1378.5 mm from
+    the origin (150 + 570 + sqrt(155^2 + 640^2), its link lengths), and close to the column it
+    folds up.
 
     Attributes:
         host: Address of the NX100; empty when there is none.
@@ -83,8 +84,8 @@ class RobotSettings:
         margin_mm: How far before the boundary an increment ends.
         speed_mm_s: Speed of a translation; at most 250.
         speed_deg_s: Speed of a rotation; at most 30.
-        rx_range_deg: Lowest and highest Rx; may pass 180, as a tool that points down reads Rx = 180.
-        ry_range_deg: Lowest and highest Ry.
+        rx_range_deg: Lowest and highest Rx; may pass 180, as a tool that points down reads Rx =
+        180. ry_range_deg: Lowest and highest Ry.
         rz_range_deg: Lowest and highest Rz.
         margin_deg: How far before the end of a range a rotation ends.
         frame: Coordinate frame of the increment: 0 base, 1 robot, 2 to 25 user 1 to 24.

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 from gestureapp.cell.snapshot import Blocker
 from gestureapp.robot.values import StopReason
-from gestureapp.sensing.values import ArmPosture
+from gestureapp.sensing.values import ArmPosture, Side
 
 
 @dataclass(frozen=True, slots=True)
@@ -24,10 +24,11 @@ class LeftPosture:
 
 
 @dataclass(frozen=True, slots=True)
-class RightLost:
-    """The right sensor's stream is not usable any more."""
+class StreamLost:
+    """A sensor's stream is not usable any more."""
 
     t_s: float
+    side: Side
     text: str
 
 
@@ -151,9 +152,9 @@ class Faulted:
 
 
 Event = (
-    Ticked | LeftPosture | RightLost | ArmPressed | DisarmPressed | StopPressed | Decided | ArmTaken
-    | ArmDenied | PermissionLost | MoveAccepted | MoveRefused | MoveEnded | StopTaken | StopDone
-    | StopOpen | GuardianGone | Faulted
+    Ticked | LeftPosture | StreamLost | ArmPressed | DisarmPressed | StopPressed | Decided
+    | ArmTaken | ArmDenied | PermissionLost | MoveAccepted | MoveRefused | MoveEnded | StopTaken |
+    StopDone | StopOpen | GuardianGone | Faulted
 )  # fmt: skip
 
 

@@ -4,8 +4,9 @@ Everything that may move the robot comes out of here, and every input is recorde
 that a session replayed through it gives the same decisions.
 
 The way of a move: ARMED -> the left arm takes the start posture -> ACTIVATED -> the recogniser
-names a gesture -> proposed to the guardian -> accepted by the controller -> MOVING -> the end is reached,
-or STOPPING -> standstill read back -> ARMED after the left arm's own stop, STOPPED after any other.
+names a gesture -> proposed to the guardian -> accepted by the controller -> MOVING -> the end is
+reached, or STOPPING -> standstill read back -> ARMED after the left arm's own stop, STOPPED after
+any other.
 """
 
 from dataclasses import dataclass, replace
@@ -27,7 +28,6 @@ from gestureapp.cell.events import (
     MoveEnded,
     MoveRefused,
     PermissionLost,
-    RightLost,
     Say,
     SendArm,
     SendDisarm,
@@ -37,12 +37,13 @@ from gestureapp.cell.events import (
     StopOpen,
     StopPressed,
     StopTaken,
+    StreamLost,
     Ticked,
 )
 from gestureapp.cell.snapshot import Blocker, CellState
 from gestureapp.config import DriveMode
 from gestureapp.robot.values import StopReason
-from gestureapp.sensing.values import ArmPosture
+from gestureapp.sensing.values import ArmPosture, Side
 
 DECISION_LIMIT_S = 1.0
 """An activation without outcome is given up after this; the recogniser answers long before."""
@@ -111,8 +112,8 @@ def step(s: MachineState, event: Event, rules: Rules) -> Step:
             return _ticked(s, event)
         case LeftPosture():
             return _left_posture(s, event, rules)
-        case RightLost():
-            return _right_lost(s, event, rules)
+        case StreamLost():
+            return _stream_lost(s, event, rules)
         case Decided():
             return _decided(s, event)
         case ArmPressed() | DisarmPressed() | StopPressed():
@@ -163,9 +164,11 @@ def _ends_move(posture: ArmPosture, rules: Rules) -> bool:
     return posture is ArmPosture.STOP
 
 
-def _right_lost(s: MachineState, event: RightLost, rules: Rules) -> Step:
+def _stream_lost(s: MachineState, event: StreamLost, rules: Rules) -> Step:
     if s.state not in _PERMITTED:
         return s, ()
+    if event.side is Side.LEFT:
+        return _ask_stop(s, event.t_s, StopReason.LEFT_SILENT, event.text)
     if s.state is CellState.MOVING and not rules.stop_on_right_lost:
         return s, ()
     return _ask_stop(s, event.t_s, StopReason.RIGHT_LOST, event.text)

@@ -1,5 +1,6 @@
 """What the cell tells the record: one value per thing that happened, in the order it happened."""
 
+import dataclasses
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from enum import Enum
@@ -47,3 +48,26 @@ class Record:
 
 Recorder = Callable[[Record], None]
 """Takes a record at once and never blocks; called from any thread."""
+
+
+def fields_of(value: object) -> dict[str, Json]:
+    """A dataclass as fields for a record: its class name as ``type``, enums by value."""
+    return {"type": type(value).__name__, **{n: plain(v) for n, v in _pairs(value)}}
+
+
+def plain(value: object) -> Json:
+    """Any value that crosses the cell, in the words of JSON."""
+    if isinstance(value, Enum):
+        return plain(value.value)
+    if value is None or isinstance(value, str | int | float | bool):
+        return value
+    if dataclasses.is_dataclass(value):
+        return {name: plain(field) for name, field in _pairs(value)}
+    if isinstance(value, tuple | list):
+        return [plain(item) for item in value]
+    return str(value)
+
+
+def _pairs(value: object) -> list[tuple[str, object]]:
+    names = [field.name for field in dataclasses.fields(value)]  # type: ignore[arg-type]
+    return [(name, getattr(value, name)) for name in names]

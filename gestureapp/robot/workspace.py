@@ -86,7 +86,7 @@ def plan(pose: Pose, direction: Direction, field: FieldOfOperation) -> Plan | Re
     """The increment from a pose in a direction, as far as the field allows, or a refusal."""
     if not all(math.isfinite(v) for v in (*pose.position_mm, *pose.rotation_deg)):
         return Refusal("bad_pose", "the robot's position is not a number")
-    outside = _outside(pose, field)
+    outside = find_outside(pose, field)
     if outside is not None:
         return outside
     if direction.is_rotation:
@@ -120,7 +120,8 @@ def nearest_turn(angle_deg: float, range_deg: tuple[float, float]) -> float:
     return middle + math.remainder(angle_deg - middle, 360.0)
 
 
-def _outside(pose: Pose, field: FieldOfOperation) -> Refusal | None:
+def find_outside(pose: Pose, field: FieldOfOperation) -> Refusal | None:
+    """Why no increment may start here: outside the spheres, or on the edge of one."""
     distance = math.hypot(*pose.position_mm)
     limit = f"{field.int_radius_mm:.0f} to {field.ext_radius_mm:.0f} mm from the robot's origin"
     asked = f"{distance:.1f} mm"

@@ -1,0 +1,391 @@
+"""The control thread's work: samples, messages and presses in, machine steps and their effects out.
+
+``handle`` and ``tick`` do all of it and take the time as an argument, so that tests drive them
+without a thread; ``run`` is the thread around them. Nothing here waits for the window, the disk or
+training.
+"""
+
+import queue
+import threading
+from collections import deque
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from typing import Protocol
+
+from gestureapp.cell import events as e
+from gestureapp.cell.machine import MachineState, Rules, step
+from gestureapp.cell.readiness import Facts, find_blockers
+from gestureapp.cell.records import Json, Record, Recorder, Topic, fields_of
+from gestureapp.cell.robot_memory import RobotMemory, events_of
+from gestureapp.cell.snapshot import Blocker, CellState, EventLine, Snapshot
+from gestureapp.cell.words import sentence
+from gestureapp.clock import Clock
+from gestureapp.config import Settings
+from gestureapp.errors import GuardianLost
+from gestureapp.gestures import Kind, gesture
+from gestureapp.recognition.values import Recogniser, Recognition
+from gestureapp.robot import messages as m
+from gestureapp.robot.values import Direction
+from gestureapp.robot.workspace import FieldOfOperation
+from gestureapp.sensing.posture import PostureDetector
+from gestureapp.sensing.stream import StreamTracker
+from gestureapp.sensing.values import ArmPosture, Sample, SensorEvent, Side
+
+TICK_S = 0.01
+"""The control thread's own clock; also the longest time between two heartbeats."""
+JUDGE_S = 0.05
+"""How often readiness is judged."""
+POSTURE_FORGOTTEN_S = 0.5
+"""A left arm not heard for this long is in no posture; the watchdog has acted long before."""
+RESTART_S = 0.2
+"""Between two attempts to start a guardian."""
+KEPT_EVENTS = 50
+
+
+class GuardianPort(Protocol):
+    """What the control thread needs of the link to the guardian."""
+
+    def send(self, message: m.ToGuardian) -> None:
+        """Say something; never blocks for long, never raises."""
+
+
+@dataclass(frozen=True, slots=True)
+class SampleCame:
+    """A calibrated sample of one side."""
+
+    side: Side
+    sample: Sample
+
+
+@dataclass(frozen=True, slots=True)
+class SensorTold:
+    """Whatever else a reader tells."""
+
+    t_s: float
+    side: Side
+    event: SensorEvent
+
+
+@dataclass(frozen=True, slots=True)
+class GuardianSaid:
+    """A message of the guardian."""
+
+    message: m.FromGuardian
+
+
+@dataclass(frozen=True, slots=True)
+class ServoAsked:
+    """The operator wants servo power."""
+
+
+Input = SampleCame | SensorTold | GuardianSaid | ServoAsked | e.Event
+
+
+class Control:
+    """Drives the cell machine. Belongs to the control thread, but for ``put`` and ``picture``.
+
+    Args:
+        settings: Of the cell.
+        field: Where the tool may go.
+        recogniser: None when no model can be used; ``model_problem`` says why.
+        model: The model in words, for the window.
+        model_problem: Why no gesture could be recognised; empty when one can.
+        start_guardian: Starts a guardian; raises GuardianLost.
+        gui_seen_s: When the window's timer last ran.
+        record: Takes everything that happens.
+        clock: Monotonic seconds.
+        wall_clock: Seconds since the epoch, for people.
+
+    Attributes:
+        state: The machine's.
+        picture: The newest snapshot; any thread.
+    """
+
+    def __init__(
+        self,
+        settings: Settings,
+        field: FieldOfOperation,
+        recogniser: Recogniser | None,
+        model: str,
+        model_problem: str,
+        start_guardian: Callable[[], GuardianPort],
+        gui_seen_s: Callable[[], float],
+        record: Recorder,
+        clock: Clock,
+        wall_clock: Clock,
+    ) -> None:
+        site = settings.site
+        self._settings, self._field = settings, field
+        self._recogniser, self._model, self._model_problem = recogniser, model, model_problem
+        self._start_guardian, self._gui_seen_s = start_guardian, gui_seen_s
+        self._record, self._clock, self._wall_clock = record, clock, wall_clock
+        self._rules = Rules(site.drive_mode, site.stop_on_right_lost)
+        self._inbox: queue.SimpleQueue[Input] = queue.SimpleQueue()
+        self._trackers = {
+            side: StreamTracker(side, site.trip_level_s, site.rate_min_hz, site.rate_max_hz)
+            for side in Side
+        }
+        self._detector = PostureDetector(
+            site.posture_enter_deg, site.posture_leave_deg, site.posture_debounce
+        )
+        robot = settings.robot
+        self._robot = RobotMemory(f"{robot.host}:{robot.port}" if robot.host else "")
+        self._guardian: GuardianPort | None = None
+        self._guardian_tried_s = float("-inf")
+        self._owed_stop: m.Stop | None = None
+        self._recognition: Recognition | None = None
+        self._lines: deque[EventLine] = deque(maxlen=KEPT_EVENTS)
+        self._judged_s = float("-inf")
+        self._now_s = clock()
+        self.n_overruns = 0
+        self.state = MachineState(since_s=self._now_s)
+        self.picture = self._take_picture()
+
+    def put(self, item: Input) -> None:
+        """Hand something to the control thread. Any thread; never blocks."""
+        self._inbox.put(item)
+
+    def run(self, stopping: threading.Event) -> None:
+        """The thread: everything in the order it came, and a tick every 10 ms, never caught up."""
+        due_s = self._clock() + TICK_S
+        while not stopping.is_set():
+            try:
+                item = self._inbox.get(timeout=max(0.0, due_s - self._clock()))
+            except queue.Empty:
+                pass
+            else:
+                self.handle(item, self._clock())
+            now_s = self._clock()
+            if now_s >= due_s:
+                self.tick(now_s)
+                self.n_overruns += now_s - due_s > TICK_S
+                due_s = max(due_s + TICK_S, now_s)
+
+    def handle(self, item: Input, now_s: float) -> None:
+        """Take one input."""
+        self._now_s = now_s
+        match item:
+            case SampleCame(side=Side.LEFT):
+                self._left_sample(item.sample)
+            case SampleCame():
+                self._right_sample(item.sample)
+            case SensorTold():
+                self._trackers[item.side].event(item.t_s, item.event)
+            case GuardianSaid():
+                self._guardian_said(item.message)
+            case ServoAsked():
+                self._send(m.ServoOn())
+            case e.GuardianGone():
+                self._guardian = None
+                self._step(item)
+            case _:
+                self._step(item)
+
+    def tick(self, now_s: float) -> None:
+        """Look at the clocks; say that we are alive; give the window a new picture."""
+        self._now_s = now_s
+        self._keep_guardian()
+        self._check_streams()
+        if self._recogniser is not None and (late := self._recogniser.check(now_s)) is not None:
+            self._recognised(late)
+        self._step(e.Ticked(now_s, self._blockers()))
+        self._beat()
+        self.picture = self._take_picture()
+
+    # Sensors.
+
+    def _left_sample(self, sample: Sample) -> None:
+        self._trackers[Side.LEFT].sample(sample)
+        before = self._detector.posture
+        posture = self._detector.feed(sample.accel_g)
+        if posture is not before:
+            self._step(e.LeftPosture(sample.t_s, posture))
+        self._beat()
+
+    def _right_sample(self, sample: Sample) -> None:
+        self._trackers[Side.RIGHT].sample(sample)
+        if self._recogniser is not None:
+            answer = self._recogniser.feed(sample.t_s, sample.accel_g)
+            if answer is not None:
+                self._recognised(answer)
+
+    def _check_streams(self) -> None:
+        left = self._trackers[Side.LEFT].health(self._now_s)
+        if left.age_s > POSTURE_FORGOTTEN_S and self._detector.posture is not ArmPosture.NEITHER:
+            self._detector.reset()
+            self._step(e.LeftPosture(self._now_s, ArmPosture.NEITHER))
+        if self.state.state not in (CellState.ARMED, CellState.ACTIVATED, CellState.MOVING):
+            return
+        for side, tracker in self._trackers.items():
+            health = tracker.health(self._now_s)
+            if not health.is_ok:
+                text = f"{side.value} sensor {health.reason}"
+                self._step(e.StreamLost(self._now_s, side, text))
+
+    def _recognised(self, answer: Recognition) -> None:
+        answer = replace(answer, decided_s=self._now_s)
+        self._recognition = answer
+        outputs = {c.label: c.confidence for c in answer.outputs}
+        fields = {**fields_of(answer), "outputs": outputs}
+        self._record(Record(Topic.RECOGNITION, self._now_s, fields))
+        text = answer.reason if answer.label is None else f"recognised {answer.label}"
+        self._step(e.Decided(self._now_s, answer.activation_id, answer.label, text))
+
+    # The guardian.
+
+    def _keep_guardian(self) -> None:
+        if self._guardian is not None or self._now_s - self._guardian_tried_s < RESTART_S:
+            return
+        self._guardian_tried_s = self._now_s
+        try:
+            self._guardian = self._start_guardian()
+        except GuardianLost as error:
+            self._say(e.Say(str(error), is_alarm=True))
+            return
+        if self._owed_stop is not None:
+            self._guardian.send(self._owed_stop)
+            self._owed_stop = None
+
+    def _guardian_said(self, message: m.FromGuardian) -> None:
+        self._robot.note(message)
+        if isinstance(message, m.StatusReport | m.PoseReport):
+            self._record(Record(Topic.ROBOT, message.t_s, _robot_fields(message)))
+        else:
+            self._record(Record(Topic.COMMAND, self._now_s, fields_of(message)))
+        if isinstance(message, m.Notice):
+            self._say(e.Say(message.text))
+        for event in events_of(message, self._now_s):
+            self._step(event)
+
+    def _beat(self) -> None:
+        if self._guardian is None:
+            return
+        counts_s = self._trackers[Side.LEFT].last_valid_s(self._now_s)
+        posture = self._detector.posture
+        self._guardian.send(
+            m.Beat(
+                left_s=float("-inf") if counts_s is None else counts_s,
+                is_left_start=posture is ArmPosture.START,
+                is_left_stop=posture is ArmPosture.STOP,
+                control_s=self._now_s,
+                gui_s=self._gui_seen_s(),
+            )
+        )
+
+    def _send(self, message: m.ToGuardian) -> None:
+        self._record(Record(Topic.COMMAND, self._now_s, fields_of(message)))
+        if self._guardian is not None:
+            self._guardian.send(message)
+        elif isinstance(message, m.Stop):
+            self._owed_stop = message
+
+    # The machine.
+
+    def _step(self, event: e.Event) -> None:
+        before = self.state
+        self.state, effects = step(before, event, self._rules)
+        if not isinstance(event, e.Ticked) or self.state != before:
+            self._record(Record(Topic.INPUT, event.t_s, fields_of(event)))
+        for effect in effects:
+            self._carry_out(effect)
+        if self.state.state is not before.state:
+            self._beat()
+            self._tell_state()
+
+    def _tell_state(self) -> None:
+        fields = {
+            "state": self.state.state.value,
+            "sentence": sentence(self.state, self._rules.drive_mode),
+            "activation_id": self.state.activation_id,
+        }
+        self._record(Record(Topic.STATE, self._now_s, fields))
+
+    def _carry_out(self, effect: e.Effect) -> None:
+        match effect:
+            case e.BeginCollecting() if self._recogniser is not None:
+                self._recogniser.activate(effect.activation_id, effect.t_s)
+            case e.EndCollecting() if self._recogniser is not None:
+                self._recogniser.cancel()
+            case e.SendProposal():
+                direction = direction_of(effect.label)
+                self._send(m.Propose(effect.activation_id, direction, effect.t_s))
+            case e.SendStop():
+                self._send(m.Stop(effect.reason, effect.text, self._now_s))
+            case e.SendArm():
+                self._send(m.Arm())
+            case e.SendDisarm():
+                self._send(m.Disarm())
+            case e.Say():
+                self._say(effect)
+
+    def _say(self, said: e.Say) -> None:
+        line = EventLine(self._now_s, self._wall_clock(), said.text, said.is_alarm)
+        self._lines.append(line)
+        fields: dict[str, Json] = {"text": said.text, "is_alarm": said.is_alarm}
+        self._record(Record(Topic.EVENT, self._now_s, fields))
+
+    # What stands against arming, and what the window sees.
+
+    def _blockers(self) -> tuple[Blocker, ...]:
+        if self._now_s - self._judged_s < JUDGE_S:
+            return self.state.blockers
+        self._judged_s = self._now_s
+        since_s = self.state.stop_since_s
+        return find_blockers(
+            Facts(
+                left=self._trackers[Side.LEFT].health(self._now_s),
+                right=self._trackers[Side.RIGHT].health(self._now_s),
+                stop_seen_s=None if since_s is None else self._now_s - since_s,
+                stop_wanted_s=self._settings.site.stop_seen_s,
+                model_problem=self._model_problem,
+                is_link_open=self._robot.is_open,
+                link_text=self._robot.text,
+                status=self._robot.status,
+                status_age_s=self._now_s - self._robot.status_s,
+                pose=self._robot.pose,
+                field=self._field,
+            )
+        )
+
+    def _take_picture(self) -> Snapshot:
+        s, settings = self.state, self._settings
+        recognition = self._recognition
+        label = recognition.label if recognition is not None else None
+        return Snapshot(
+            t_s=self._now_s,
+            state=s.state,
+            sentence=sentence(s, self._rules.drive_mode),
+            blockers=s.blockers,
+            can_arm=s.can_arm,
+            is_stop_unconfirmed=s.is_stop_unconfirmed,
+            left=self._trackers[Side.LEFT].health(self._now_s),
+            right=self._trackers[Side.RIGHT].health(self._now_s),
+            posture=s.posture,
+            trip_level_s=settings.site.trip_level_s,
+            recognition=recognition,
+            direction=direction_of(label) if label is not None else None,
+            robot=self._robot.view(self._now_s),
+            events=tuple(self._lines),
+            is_simulation=settings.is_simulation,
+            recording="",
+            person=settings.person.name,
+            model=self._model,
+        )
+
+
+def direction_of(label: str) -> Direction:
+    """What a gesture asks of the robot.
+
+    Raises:
+        KeyError: no gesture has this label.
+    """
+    found = gesture(label)
+    return Direction(found.axis, found.sign, found.kind is Kind.POSTURE)
+
+
+def _robot_fields(message: m.StatusReport | m.PoseReport) -> dict[str, int | float | None]:
+    if isinstance(message, m.StatusReport):
+        return {"data_1": message.data_1, "data_2": message.data_2}
+    pose = message.pose
+    names = ("x_mm", "y_mm", "z_mm", "rx_deg", "ry_deg", "rz_deg")
+    return {name: getattr(pose, name) for name in names}

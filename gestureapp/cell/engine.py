@@ -1,0 +1,238 @@
+"""The running cell: its threads, its guardian, and the surface that the window uses."""
+
+import logging
+from collections.abc import Callable
+from dataclasses import replace
+from pathlib import Path
+
+from gestureapp.cell import events as e
+from gestureapp.cell.control import (
+    Control,
+    GuardianPort,
+    GuardianSaid,
+    SampleCame,
+    SensorTold,
+    ServoAsked,
+)
+from gestureapp.cell.guardian_link import GuardianLink
+from gestureapp.cell.records import Record, Recorder, Topic
+from gestureapp.cell.snapshot import Snapshot
+from gestureapp.clock import Clock, monotonic
+from gestureapp.config import DriveMode, RobotSettings, SensorSettings, Settings
+from gestureapp.errors import ModelError, WorkerError
+from gestureapp.gestures import LABELS
+from gestureapp.recognition.model_file import load_model
+from gestureapp.recognition.paper import PaperRecogniser
+from gestureapp.recognition.values import Recogniser
+from gestureapp.robot.gate import Limits
+from gestureapp.robot.workspace import FieldOfOperation
+from gestureapp.sensing.reader import SensorReader
+from gestureapp.sensing.store import SampleStore
+from gestureapp.sensing.values import Garbage, Sample, SensorEvent, Side
+from gestureapp.worker import Worker
+
+log = logging.getLogger(__name__)
+
+STALE_PICTURE_S = 0.5
+"""An older picture is not what is: the control thread has stopped or is stuck."""
+
+
+class Cell:
+    """Owns readers, control thread and the link to the guardian; implements ``CellControls``.
+
+    Args:
+        settings: Of the cell.
+        record: Takes everything that happens; any thread.
+        recording_words: Where the session is recorded, or why it is not; polled by the window.
+        guardian_log: File for the guardian's own log, or None.
+        clock: Monotonic seconds.
+        wall_clock: Seconds since the epoch.
+
+    Attributes:
+        settings: As given.
+        left: The left arm's newest samples.
+        right: The right arm's.
+    """
+
+    def __init__(
+        self,
+        settings: Settings,
+        record: Recorder,
+        recording_words: Callable[[], str],
+        guardian_log: Path | None,
+        wall_clock: Clock,
+        clock: Clock = monotonic,
+    ) -> None:
+        self.settings = settings
+        self.left, self.right = SampleStore(), SampleStore()
+        self._record, self._recording_words = record, recording_words
+        self._guardian_log, self._clock = guardian_log, clock
+        self._gui_s = clock()
+        self._link: GuardianLink | None = None
+        self._is_closing = False
+        recogniser, model, problem = find_recogniser(settings)
+        self._control = Control(
+            settings=settings,
+            field=field_of(settings.robot),
+            recogniser=recogniser,
+            model=model,
+            model_problem=problem,
+            start_guardian=self._start_guardian,
+            gui_seen_s=lambda: self._gui_s,
+            record=record,
+            clock=clock,
+            wall_clock=wall_clock,
+        )
+        self._worker = Worker("control", self._control.run, self._control_died)
+        self._readers = (
+            self._reader(Side.LEFT, settings.left, self.left, Topic.LEFT_ACCEL),
+            self._reader(Side.RIGHT, settings.right, self.right, Topic.RIGHT_ACCEL),
+        )
+
+    def start(self) -> None:
+        """Start every thread; the guardian is started by the control thread."""
+        self._gui_s = self._clock()
+        self._worker.start()
+        for reader in self._readers:
+            reader.start()
+
+    def snapshot(self) -> Snapshot:
+        """The newest picture of the cell. Any thread."""
+        picture = replace(self._control.picture, recording=self._recording_words())
+        age_s = self._clock() - picture.t_s
+        if age_s > STALE_PICTURE_S and not self._is_closing:
+            sentence = f"The control thread is silent for {age_s:.1f} s: restart the application."
+            return replace(picture, sentence=sentence, can_arm=False)
+        return picture
+
+    def gui_tick(self) -> None:
+        """The window's timer has run."""
+        self._gui_s = self._clock()
+
+    def arm(self) -> None:
+        """The operator has held the arm button long enough."""
+        self._control.put(e.ArmPressed(self._clock()))
+
+    def disarm(self) -> None:
+        """The operator takes the permission back."""
+        self._control.put(e.DisarmPressed(self._clock()))
+
+    def stop(self) -> None:
+        """STOP: first straight to the guardian, then to the cell's own knowledge."""
+        link = self._link
+        if link is not None:
+            link.stop_now("STOP was pressed")
+        self._control.put(e.StopPressed(self._clock()))
+
+    def servo_on(self) -> None:
+        """The operator asks for servo power."""
+        self._control.put(ServoAsked())
+
+    def shutdown(self) -> None:
+        """End everything; what may still move is stopped by the guardian first. Idempotent."""
+        if self._is_closing:
+            return
+        self._is_closing = True
+        for reader in self._readers:
+            reader.stop()
+        self._worker.stop()
+        if self._link is not None:
+            self._link.close()
+
+    # Parts.
+
+    def _reader(
+        self, side: Side, settings: SensorSettings, store: SampleStore, topic: Topic
+    ) -> SensorReader:
+        def on_sample(sample: Sample) -> None:
+            self._control.put(SampleCame(side, sample))
+            store.append(sample)
+            self._record(Record(topic, sample.t_s, _sample_fields(sample)))
+
+        def on_event(event: SensorEvent) -> None:
+            now_s = self._clock()
+            self._control.put(SensorTold(now_s, side, event))
+            if isinstance(event, Garbage):
+                self._record(Record(Topic.GARBAGE, now_s, _garbage_fields(side, event)))
+
+        return SensorReader(side, settings, on_sample, on_event, self._clock, self._reader_died)
+
+    def _start_guardian(self) -> GuardianPort:
+        old, robot = self._link, self.settings.robot
+        if old is not None:
+            old.close(wait_s=0.0)
+        self._link = GuardianLink(
+            host=robot.host,
+            port=robot.port,
+            limits=limits_of(self.settings),
+            log_file=self._guardian_log,
+            on_message=lambda message: self._control.put(GuardianSaid(message)),
+            on_lost=lambda text: self._control.put(e.GuardianGone(self._clock(), text)),
+            clock=self._clock,
+        )
+        return self._link
+
+    def _reader_died(self, error: WorkerError) -> None:
+        self._control.put(e.Faulted(self._clock(), f"{error}; restart the application"))
+
+    def _control_died(self, error: WorkerError) -> None:
+        """Without a control thread nobody can be trusted: the guardian stops what moves."""
+        if self._link is not None:
+            self._link.stop_now(f"cell fault: {error}")
+
+
+def find_recogniser(settings: Settings) -> tuple[Recogniser | None, str, str]:
+    """The recogniser of the person's model, the model in words, and why there is none."""
+    path = settings.person.model
+    if path is None:
+        return None, "no model", "no model is set for this person"
+    try:
+        model = load_model(path)
+        unknown = sorted(set(model.labels) - set(LABELS))
+        if unknown:
+            return None, path.name, f"{path.name} knows gestures the robot does not: {unknown}"
+        recogniser = PaperRecogniser(model)
+    except (ModelError, ValueError) as error:
+        return None, "no model", str(error)
+    return recogniser, f"{path.stem} ({model.training.preset})", ""
+
+
+def field_of(robot: RobotSettings) -> FieldOfOperation:
+    """The field of operation that the settings describe."""
+    return FieldOfOperation(
+        ext_radius_mm=robot.ext_radius_mm,
+        int_radius_mm=robot.int_radius_mm,
+        margin_mm=robot.margin_mm,
+        ranges_deg=(robot.rx_range_deg, robot.ry_range_deg, robot.rz_range_deg),
+        margin_deg=robot.margin_deg,
+    )
+
+
+def limits_of(settings: Settings) -> Limits:
+    """What the guardian is given at its start."""
+    robot, site = settings.robot, settings.site
+    return Limits(
+        field=field_of(robot),
+        speed_mm_s=robot.speed_mm_s,
+        speed_deg_s=robot.speed_deg_s,
+        frame=robot.frame,
+        tool=robot.tool,
+        is_hold_to_run=site.drive_mode is DriveMode.HOLD_TO_RUN,
+        trip_level_s=site.trip_level_s,
+        control_limit_s=site.control_limit_s,
+        gui_limit_s=site.gui_limit_s,
+    )
+
+
+def _sample_fields(sample: Sample) -> dict[str, int | float | None]:
+    x, y, z = sample.accel_g
+    return {"seq": sample.seq, "ax_g": x, "ay_g": y, "az_g": z, "counter": sample.counter}
+
+
+def _garbage_fields(side: Side, event: Garbage) -> dict[str, int | str]:
+    return {
+        "side": side.value,
+        "n_bytes": event.n_bytes,
+        "first_bytes": event.first_bytes.hex(),
+        "reason": event.reason,
+    }

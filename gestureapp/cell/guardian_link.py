@@ -1,0 +1,189 @@
+"""The application's end of the line to the guardian: starts it, talks to it, notices its death."""
+
+import contextlib
+import logging
+import secrets
+import selectors
+import socket
+import subprocess
+import threading
+from collections.abc import Callable
+from pathlib import Path
+
+from gestureapp.children import child_command, child_environment
+from gestureapp.clock import Clock
+from gestureapp.errors import GuardianLost
+from gestureapp.robot import messages as m
+from gestureapp.robot.gate import Limits
+from gestureapp.robot.values import StopReason
+from gestureapp.worker import Worker
+
+log = logging.getLogger(__name__)
+
+START_LIMIT_S = 5.0
+"""From the process' start to its "listening" line; 60 ms here, but a cold disk is slow."""
+SEND_LIMIT_S = 0.05
+"""A guardian that takes no bytes for this long counts as lost."""
+
+
+class GuardianLink:
+    """One guardian process and both connections to it. Made and closed by the cell.
+
+    ``send`` belongs to the control thread, ``stop_now`` to the window's: each has a connection of
+    its own, so neither ever waits for the other.
+
+    Args:
+        host: The controller's address; empty when there is none.
+        port: Its TCP port.
+        limits: For the guardian's whole life.
+        log_file: For the guardian's own log, or None.
+        on_message: Gets what the guardian says, in the link's reader thread.
+        on_lost: Told once, in the reader thread, when the guardian is gone without being asked to
+        go. clock: Monotonic seconds.
+
+    Raises:
+        GuardianLost: it could not be started.
+    """
+
+    def __init__(
+        self,
+        host: str,
+        port: int,
+        limits: Limits,
+        log_file: Path | None,
+        on_message: Callable[[m.FromGuardian], None],
+        on_lost: Callable[[str], None],
+        clock: Clock,
+    ) -> None:
+        self._on_message = on_message
+        self._on_lost = on_lost
+        self._clock = clock
+        self._is_closing = False
+        token = secrets.token_hex(16)
+        self._process = subprocess.Popen(
+            child_command("guardian"),
+            stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
+            start_new_session=True,
+            env=child_environment(),
+        )
+        try:
+            self._tell_start(m.Start(token, host, port, limits, str(log_file or "")))
+            address = ("127.0.0.1", self._read_port())
+            self._control = self._connect(address, token, m.Role.CONTROL)
+            self._window = self._connect(address, token, m.Role.WINDOW)
+        except (OSError, GuardianLost) as error:
+            self._process.kill()
+            self._end_process()
+            raise GuardianLost(f"the guardian did not start: {error}; start again") from error
+        self._window_lock = threading.Lock()
+        self._reader = Worker("guardian reader", self._read)
+        self._reader.start()
+
+    @property
+    def pid(self) -> int:
+        """Of the guardian process."""
+        return self._process.pid
+
+    def send(self, message: m.ToGuardian) -> None:
+        """Say something. Control thread only; a guardian that does not take it shows as lost."""
+        self._send_on(self._control, message)
+
+    def stop_now(self, text: str) -> None:
+        """STOP from the window: straight to the guardian, past every queue. Any thread."""
+        message = m.Stop(StopReason.STOP_PRESSED, text, self._clock())
+        with self._window_lock:
+            self._send_on(self._window, message)
+
+    def close(self, wait_s: float = 3.0) -> bool:
+        """Let the guardian go: it stops what may still move, then ends. Idempotent.
+
+        Returns:
+            Whether the guardian has ended within the time.
+        """
+        if not self._is_closing:
+            self._is_closing = True
+            self._send_on(self._control, m.Bye())
+            for sock in (self._control, self._window):
+                with contextlib.suppress(OSError):
+                    sock.shutdown(socket.SHUT_WR)
+        has_ended = self._wait(wait_s)
+        self._reader.stop()
+        for sock in (self._control, self._window):
+            sock.close()
+        if has_ended:
+            self._end_process()
+        return has_ended
+
+    def _tell_start(self, start: m.Start) -> None:
+        assert self._process.stdin is not None
+        self._process.stdin.write(m.encode(start))
+        self._process.stdin.flush()
+
+    def _read_port(self) -> int:
+        assert self._process.stdout is not None
+        with selectors.DefaultSelector() as selector:
+            selector.register(self._process.stdout, selectors.EVENT_READ)
+            if not selector.select(START_LIMIT_S):
+                raise GuardianLost(f"it said nothing within {START_LIMIT_S:.0f} s")
+        message = m.decode(self._process.stdout.readline())
+        if not isinstance(message, m.Listening):
+            raise GuardianLost("it ended at once")
+        return message.port
+
+    def _connect(self, address: tuple[str, int], token: str, role: m.Role) -> socket.socket:
+        sock = socket.create_connection(address, timeout=START_LIMIT_S)
+        sock.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
+        sock.settimeout(SEND_LIMIT_S)
+        sock.sendall(m.encode(m.Hello(token, role)))
+        return sock
+
+    def _send_on(self, sock: socket.socket, message: m.ToGuardian) -> None:
+        try:
+            sock.sendall(m.encode(message))
+        except OSError as error:
+            if not self._is_closing:
+                log.error("the guardian takes no messages: %s", error)
+            # Half a message may have gone out: the line is of no use any more. The guardian sees
+            # it end and stops the robot; the reader sees it end and reports the loss.
+            with contextlib.suppress(OSError):
+                sock.shutdown(socket.SHUT_RDWR)
+
+    def _read(self, stopping: threading.Event) -> None:
+        unread = b""
+        while not stopping.is_set():
+            try:
+                data = self._control.recv(65536)
+            except TimeoutError:
+                continue
+            except OSError:
+                data = b""
+            if not data:
+                break
+            *lines, unread = (unread + data).split(b"\n")
+            for line in lines:
+                self._hand_on(line)
+        if not self._is_closing:
+            self._on_lost("the guardian process has ended; the robot is held by a new one")
+
+    def _hand_on(self, line: bytes) -> None:
+        message = m.decode(line)
+        if isinstance(message, m.FromGuardian):
+            self._on_message(message)
+        else:
+            log.error("unreadable line from the guardian: %r", line[:80])
+
+    def _wait(self, wait_s: float) -> bool:
+        try:
+            self._process.wait(wait_s)
+        except subprocess.TimeoutExpired:
+            log.error("the guardian (process %d) is still stopping the robot", self.pid)
+            return False
+        return True
+
+    def _end_process(self) -> None:
+        self._process.wait()
+        for pipe in (self._process.stdin, self._process.stdout):
+            if pipe is not None:
+                with contextlib.suppress(OSError):
+                    pipe.close()

@@ -1,0 +1,103 @@
+"""What stands against arming: every blocker, with the measured value and the remedy. Pure.
+
+Unknown counts as not ready.
+"""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from gestureapp.cell.snapshot import Blocker
+from gestureapp.robot.gate import STATUS_MAX_AGE_S, robot_blocker
+from gestureapp.robot.values import Pose, RobotStatus
+from gestureapp.robot.workspace import FieldOfOperation, find_outside
+from gestureapp.sensing.values import StreamHealth
+
+_REMEDIES = {
+    "no_status": "wait, or check the cable to the controller",
+    "alarm": "clear the alarm on the pendant, then press Servo on",
+    "error": "clear the error on the pendant",
+    "teach": "turn the pendant's key to REMOTE",
+    "not_remote": "turn the pendant's key to REMOTE and switch command remote on",
+    "not_play": "select play mode on the pendant",
+    "servo_off": "press Servo on",
+    "held": "release the hold on the pendant or the input",
+    "running": "wait until the robot stands",
+}
+
+
+@dataclass(frozen=True, slots=True)
+class Facts:
+    """What readiness is judged by, at one moment.
+
+    Attributes:
+        left: Health of the left stream.
+        right: Health of the right stream.
+        stop_seen_s: How long the left arm has been in the stop posture; None when it is not.
+        stop_wanted_s: How long it has to be.
+        model_problem: Why no gesture could be recognised; empty when one can.
+        is_link_open: The controller has taken the session.
+        link_text: The line's own words.
+        status: Last RSTATS, or None.
+        status_age_s: How old that is.
+        pose: Last RPOSC, or None.
+        field: Where the tool may go.
+        lock: Why arming is locked out at all, or empty.
+    """
+
+    left: StreamHealth
+    right: StreamHealth
+    stop_seen_s: float | None
+    stop_wanted_s: float
+    model_problem: str
+    is_link_open: bool
+    link_text: str
+    status: RobotStatus | None
+    status_age_s: float
+    pose: Pose | None
+    field: FieldOfOperation
+    lock: str = ""
+
+
+def find_blockers(facts: Facts) -> tuple[Blocker, ...]:
+    """Everything that stands against arming now, in the order in which a person would mend it."""
+    return (*_sensor_blockers(facts), *_own_blockers(facts), *_robot_blockers(facts))
+
+
+def _sensor_blockers(facts: Facts) -> Iterator[Blocker]:
+    for health in (facts.left, facts.right):
+        if not health.is_ok:
+            side = health.side.value
+            cause, _, remedy = health.reason.partition(": ")
+            remedy = remedy or "check the sensor and its port"
+            yield Blocker(f"{side}_sensor", f"{side} sensor {cause}", remedy)
+    if facts.left.is_ok and (facts.stop_seen_s is None or facts.stop_seen_s < facts.stop_wanted_s):
+        seen_s = facts.stop_seen_s or 0.0
+        text = f"left arm seen in the stop posture for {seen_s:.1f} of {facts.stop_wanted_s:.1f} s"
+        yield Blocker("left_stop", text, "hold the left arm level")
+
+
+def _own_blockers(facts: Facts) -> Iterator[Blocker]:
+    if facts.lock:
+        yield Blocker("lock", facts.lock, "finish that first")
+    if facts.model_problem:
+        yield Blocker("model", facts.model_problem, "train a model, or choose another file")
+
+
+def _robot_blockers(facts: Facts) -> Iterator[Blocker]:
+    if not facts.is_link_open:
+        remedy = "check the address, the cable and the controller's Ethernet function"
+        yield Blocker("robot_link", f"the robot does not answer: {facts.link_text}", remedy)
+        return
+    if facts.status_age_s > STATUS_MAX_AGE_S:
+        text = f"the robot's state is {facts.status_age_s:.1f} s old"
+        yield Blocker("robot_link", text, _REMEDIES["no_status"])
+        return
+    refusal = robot_blocker(facts.status, ignore_own_hold=True)
+    if refusal is not None:
+        cause = refusal.text.partition(": ")[0]
+        yield Blocker("robot_state", cause, _REMEDIES.get(refusal.reason, refusal.text))
+    if facts.pose is None:
+        yield Blocker("robot_pose", "the robot has not told its position", "wait a moment")
+    elif (outside := find_outside(facts.pose, facts.field)) is not None:
+        remedy = "move the tool back into the field with the pendant"
+        yield Blocker("robot_pose", outside.text, remedy)

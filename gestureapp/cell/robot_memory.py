@@ -1,0 +1,92 @@
+"""What the cell knows of the robot, from what the guardian tells. Pure."""
+
+from collections.abc import Iterator
+
+from gestureapp.cell import events as e
+from gestureapp.cell.snapshot import RobotView
+from gestureapp.robot import messages as m
+from gestureapp.robot.values import Pose, PoseIncrement, RobotStatus
+
+
+class RobotMemory:
+    """The robot as last heard. Owned by the control thread.
+
+    Attributes:
+        is_open: The controller has taken the session.
+        text: The line's own words.
+        status: Last RSTATS, or None.
+        status_s: When it was read.
+        pose: Last RPOSC, or None.
+        pose_s: When it was read.
+    """
+
+    def __init__(self, address: str) -> None:
+        self.is_open = False
+        self.text = "not connected yet" if address else "no robot address is set"
+        self.status: RobotStatus | None = None
+        self.status_s = float("-inf")
+        self.pose: Pose | None = None
+        self.pose_s = float("-inf")
+        self._address = address
+        self._alarms: tuple[int, ...] = ()
+        self._increment: PoseIncrement | None = None
+        self._start: Pose | None = None
+        self._limited_by = ""
+        self._speed = ""
+
+    def note(self, message: m.FromGuardian) -> None:
+        """Take what the guardian tells about the robot."""
+        match message:
+            case m.LinkReport():
+                self.is_open, self.text = message.is_open, message.text
+                if not message.is_open:
+                    self.status = None
+            case m.StatusReport():
+                self.status = RobotStatus(message.data_1, message.data_2)
+                self.status_s, self._alarms = message.t_s, message.alarms
+            case m.PoseReport():
+                self.pose, self.pose_s = message.pose, message.t_s
+            case m.CommandSent():
+                self._increment, self._start = message.increment, message.start
+                self._limited_by = message.limited_by
+                unit = "deg/s" if message.is_rotation else "mm/s"
+                self._speed = f"{message.speed:.1f} {unit}"
+
+    def view(self, now_s: float) -> RobotView:
+        """For the window."""
+        alarms = f", alarm {', '.join(map(str, self._alarms))}" if self._alarms else ""
+        where = self._address if self.is_open else self.text
+        return RobotView(
+            is_connected=self.is_open,
+            text=f"{where}{alarms}",
+            status=self.status,
+            pose=self.pose,
+            pose_age_s=now_s - self.pose_s,
+            increment=self._increment,
+            start=self._start,
+            limited_by=self._limited_by,
+            speed=self._speed,
+        )
+
+
+def events_of(message: m.FromGuardian, t_s: float) -> Iterator[e.Event]:
+    """What a message of the guardian means to the cell machine."""
+    match message:
+        case m.Armed():
+            yield e.ArmTaken(t_s)
+        case m.ArmRefused():
+            yield e.ArmDenied(t_s, message.refusal.text)
+        case m.Disarmed():
+            yield e.PermissionLost(t_s)
+        case m.CommandAccepted():
+            yield e.MoveAccepted(t_s, message.activation_id)
+        case m.CommandRefused():
+            yield e.MoveRefused(t_s, message.activation_id, message.refusal.text)
+        case m.MotionEnded():
+            yield e.MoveEnded(t_s, message.activation_id)
+        case m.StopAsked():
+            yield e.StopTaken(t_s, message.reason, message.text)
+        case m.StopConfirmed():
+            yield e.StopDone(t_s, message.reason)
+        case m.StopUnconfirmed():
+            yield e.StopOpen(t_s, message.text)

@@ -1,0 +1,35 @@
+"""The cell's state in a sentence: what to do next, or why nothing moves. Pure."""
+
+from gestureapp.cell.machine import MachineState
+from gestureapp.cell.snapshot import CellState
+from gestureapp.config import DriveMode
+
+
+def sentence(s: MachineState, drive_mode: DriveMode) -> str:
+    """One sentence for a person, under the one word."""
+    match s.state:
+        case CellState.NOT_READY:
+            count = len(s.blockers)
+            before = f"{s.note}. " if s.note else ""
+            things = "1 thing stands" if count == 1 else f"{count} things stand"
+            return f"{before}{things} against arming." if count else before.strip()
+        case CellState.READY:
+            return "Arming…" if s.is_arming else s.note or "Hold Arm for one second."
+        case CellState.ARMED:
+            before = f"{s.note}. " if s.note else ""
+            return f"{before}Raise the left arm and make a gesture with the right."
+        case CellState.ACTIVATED:
+            return f"{s.note}. Asking the robot." if s.is_proposed else "Watching the right arm."
+        case CellState.MOVING if drive_mode is DriveMode.HOLD_TO_RUN:
+            return f"{s.note}. Lower the left arm to stop."
+        case CellState.MOVING:
+            return f"{s.note}. Bring the left arm to the stop posture to stop."
+        case CellState.STOPPING:
+            return f"{s.note}. Waiting until the robot is read back to stand."
+        case CellState.STOPPED:
+            after = "Hold Arm for one second." if s.can_arm else _after_stop(s)
+            return f"{s.note}. The robot stands. {after}"
+
+
+def _after_stop(s: MachineState) -> str:
+    return "Arming…" if s.is_arming else "Clear what stands against arming, then hold Arm."
