@@ -43,7 +43,9 @@ class StreamTracker:
 
     A worn sensor trembles, but a 10-bit converter hides some of it: a simulated arm held still read
     the same for up to 90 ms in ten minutes (``adxl330``, 100 Hz), and one that lies on a table may
-    for longer. It is then reported as frozen, as nothing tells the two apart. What comes counts in the order of the calls, so the owner keeps the reader's order.
+    for longer. It is then reported as frozen, as nothing tells the two apart.
+
+    What comes counts in the order of the calls, so the owner keeps the reader's order.
 
     Args:
         side: Whose stream.
