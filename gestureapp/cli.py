@@ -1,0 +1,253 @@
+"""The command line: one subcommand is one call. No command moves a robot.
+
+Exit codes: 0 fine, 1 failed, 2 usage, 3 hardware not found, 4 data damaged but recovered. An error
+is one line on standard error that names the cause and the remedy.
+"""
+
+import argparse
+import json
+import logging
+import sys
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from gestureapp import __version__
+
+if TYPE_CHECKING:  # children start quickly only when nothing heavy is imported with the parser
+    from gestureapp.running import RunningCell
+
+FINE, FAILED, USAGE = 0, 1, 2
+
+OpenWindow = Callable[["RunningCell", float | None], int]
+"""Shows a running cell; given by the package that knows windows."""
+
+
+def main(arguments: Sequence[str] | None = None, open_window: OpenWindow | None = None) -> int:
+    """Run one command and return its exit code.
+
+    Args:
+        arguments: Without the program's name; those of the process when None.
+        open_window: Opens the application's window; without it only the other commands exist.
+    """
+    arguments = sys.argv[1:] if arguments is None else arguments
+    if list(arguments) == ["guardian"]:  # must answer in a few hundredths of a second
+        from gestureapp.robot.guardian import main as guardian
+
+        return guardian()
+    options = _parser(open_window is not None).parse_args(arguments)
+    from gestureapp.errors import GestureAppError
+
+    try:
+        if options.run is None:
+            return _application(options, open_window)
+        return int(options.run(options))
+    except GestureAppError as error:
+        sys.stderr.write(f"gestureapp: {error}\n")
+        return FAILED
+    except OSError as error:
+        sys.stderr.write(f"gestureapp: {error.filename or ''}: {error.strerror or error}\n")
+        return FAILED
+    except KeyboardInterrupt:
+        return 130
+
+
+def _parser(has_window: bool) -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(
+        prog="gestureapp",
+        description="Arm gestures for a robot cell. Without a command: the application.",
+    )
+    parser.add_argument("--version", action="version", version=f"gestureapp {__version__}")
+    parser.set_defaults(run=None)
+    if has_window:
+        _add_application(parser)
+    commands = parser.add_subparsers(title="commands", metavar="COMMAND", required=not has_window)
+    _add_simulate(commands)
+    _add_training(commands)
+    _add_benchmark(commands)
+    return parser
+
+
+def _add_application(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("--demo", action="store_true", help="work on an emulated cell")
+    parser.add_argument("--data-dir", type=Path, help="where sessions are recorded")
+    parser.add_argument(
+        "--config", type=Path, help="settings file, on top of the site's and user's"
+    )
+    parser.add_argument(
+        "--log-level", choices=("debug", "info", "warning", "error"), default="warning"
+    )
+    parser.add_argument("--exit-after", type=_seconds, metavar="SECONDS", help="close by itself")
+
+
+def _add_simulate(commands: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
+    from gestureapp.simulation import nx100_process
+
+    simulate = commands.add_parser("simulate", help="emulate a sensor or a controller; make takes")
+    kinds = simulate.add_subparsers(title="what", metavar="WHAT", required=True)
+
+    nx100 = kinds.add_parser("nx100", help="an NX100 controller on TCP")
+    nx100_process.add_arguments(nx100)
+    nx100.set_defaults(run=nx100_process.run)
+
+    sensor = kinds.add_parser("sensor", help="a worn accelerometer on TCP")
+    sensor.add_argument("--arm", choices=("left", "right"), required=True)
+    sensor.add_argument("--port", type=int, required=True)
+    sensor.add_argument("--control-port", type=int, help="what the arm does, JSON lines")
+    sensor.add_argument("--protocol", default="csv", help="csv or adxl330")
+    sensor.add_argument("--rate-hz", type=float, default=100.0)
+    sensor.add_argument("--seed", type=int, default=7)
+    sensor.add_argument("--session", type=int, default=2)
+    sensor.add_argument("--exit-with-stdin", action="store_true")
+    sensor.set_defaults(run=_simulate_sensor)
+
+    takes = kinds.add_parser("takes", help="takes of simulated people, as NPZ")
+    takes.add_argument("out", type=Path, metavar="OUT.npz")
+    takes.add_argument("--people", type=int, default=1)
+    takes.add_argument("--takes", type=int, default=30)
+    takes.add_argument("--seed", type=int, default=0)
+    takes.add_argument("--session", type=int, default=1)
+    takes.add_argument("--practised", action="store_true", help="trained operators")
+    takes.set_defaults(run=_simulate_takes)
+
+
+def _add_training(commands: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
+    train = commands.add_parser("train", help="train a model from takes")
+    train.add_argument("takes", type=Path, metavar="TAKES.npz")
+    train.add_argument("-o", "--out", type=Path, required=True, metavar="MODEL.json")
+    train.add_argument("--preset", choices=("paper", "default"), default="default")
+    train.add_argument("--seed", type=int, default=0)
+    train.add_argument("--json", action="store_true")
+    train.set_defaults(run=_train)
+
+    evaluate = commands.add_parser("evaluate", help="what a model makes of takes")
+    evaluate.add_argument("model", type=Path, metavar="MODEL.json")
+    evaluate.add_argument("takes", type=Path, metavar="TAKES.npz")
+    evaluate.add_argument("--json", action="store_true")
+    evaluate.set_defaults(run=_evaluate)
+
+
+def _add_benchmark(commands: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
+    benchmark = commands.add_parser("benchmark", help="measure the figures of the README")
+    benchmark.add_argument("what", choices=("latency", "stop", "training", "startup"))
+    benchmark.add_argument("--seconds", type=_seconds, default=40.0, help="at least, per case")
+    benchmark.add_argument("--json", action="store_true")
+    benchmark.set_defaults(run=_benchmark)
+
+
+def _application(options: argparse.Namespace, open_window: OpenWindow | None) -> int:
+    assert open_window is not None
+    from gestureapp.config import Settings
+    from gestureapp.running import data_folder, running_cell, settings_files
+    from gestureapp.settings_file import load_settings
+    from gestureapp.simulation.demo import DemoOptions
+
+    logging.basicConfig(
+        level=options.log_level.upper(), format="%(asctime)s %(levelname)s %(name)s: %(message)s"
+    )
+    settings, findings = Settings(), []
+    if not options.demo or options.config is not None:
+        files = [] if options.demo else settings_files()
+        settings, findings = load_settings(files, options.config)
+    for finding in findings:
+        sys.stderr.write(f"gestureapp: {finding}\n")
+    demo = DemoOptions() if options.demo else None
+    with running_cell(settings, data_folder(options.data_dir), demo) as running:
+        return open_window(running, options.exit_after)
+
+
+def _simulate_sensor(options: argparse.Namespace) -> int:
+    from gestureapp.sensing.values import Side
+    from gestureapp.simulation.sensor import SensorOptions, serve_sensor
+
+    sensor = SensorOptions(
+        side=Side(options.arm),
+        port=options.port,
+        control_port=options.control_port,
+        protocol=options.protocol,
+        rate_hz=options.rate_hz,
+        seed=options.seed,
+        session=options.session,
+    )
+    return serve_sensor(sensor, exit_with_stdin=options.exit_with_stdin)
+
+
+def _simulate_takes(options: argparse.Namespace) -> int:
+    from gestureapp.recognition.takes import save_takes
+    from gestureapp.simulation.takes import make_takes
+
+    try:
+        takes = make_takes(
+            options.people,
+            options.takes,
+            options.seed,
+            options.session,
+            practised=options.practised,
+        )
+    except ValueError as error:
+        sys.stderr.write(f"gestureapp: {error}\n")
+        return USAGE
+    save_takes(options.out, takes)
+    _write(f"{options.out}: {len(takes.labels)} takes")
+    return FINE
+
+
+def _train(options: argparse.Namespace) -> int:
+    from gestureapp.recognition.model_file import save_model
+    from gestureapp.recognition.takes import load_takes
+    from gestureapp.recognition.training import Preset, train
+
+    takes = load_takes(options.takes)
+    is_shown = sys.stderr.isatty()
+
+    def progress(done: int, total: int, loss: float) -> None:
+        if is_shown:
+            sys.stderr.write(f"\r{done} of {total}, loss {loss:.5f} ")
+
+    model = train(
+        takes, Preset(options.preset), options.seed, progress, takes_from=str(options.takes)
+    )
+    save_model(options.out, model)
+    if is_shown:
+        sys.stderr.write("\n")
+    record = model.training
+    if options.json:
+        facts = {"model": str(options.out), "labels": list(model.labels)}
+        _write(json.dumps({**facts, "training": _plain_fields(record)}))
+    else:
+        _write(f"{options.out}: {record.n_takes} takes, loss {record.loss:.6f}")
+        _write(f"trained in {record.duration_s:.1f} s")
+    return FINE
+
+
+def _evaluate(options: argparse.Namespace) -> int:
+    from gestureapp.recognition.evaluation import evaluate
+    from gestureapp.recognition.model_file import load_model
+    from gestureapp.recognition.takes import load_takes
+
+    evaluation = evaluate(load_model(options.model), load_takes(options.takes))
+    _write(json.dumps(evaluation.as_json()) if options.json else evaluation.as_table())
+    return FINE
+
+
+def _benchmark(options: argparse.Namespace) -> int:
+    from gestureapp.benchmark import run
+
+    return run(options.what, options.seconds, as_json=options.json)
+
+
+def _seconds(text: str) -> float:
+    value = float(text)
+    if not 0 < value < 1e6:
+        raise argparse.ArgumentTypeError(f"{text} is not a time in seconds above zero")
+    return value
+
+
+def _plain_fields(value: object) -> dict[str, object]:
+    import dataclasses
+
+    return dataclasses.asdict(value)  # type: ignore[call-overload,no-any-return]
+
+
+def _write(text: str) -> None:
+    sys.stdout.write(f"{text}\n")

@@ -1,0 +1,106 @@
+"""A cell with everything around it: its emulators in a demo, its recorder, its folders."""
+
+import contextlib
+import os
+import time
+from collections.abc import Iterator
+from dataclasses import dataclass, fields
+from pathlib import Path
+
+import platformdirs
+
+from gestureapp import __version__
+from gestureapp.cell.engine import Cell
+from gestureapp.clock import monotonic
+from gestureapp.config import Settings
+from gestureapp.errors import ConfigError
+from gestureapp.recording.session_writer import SessionWriter
+from gestureapp.simulation.demo import DemoCell, DemoOptions
+from gestureapp.simulation.operator import OperatorClient
+
+APP_NAME = "gestureapp"
+
+
+@dataclass(frozen=True, slots=True)
+class RunningCell:
+    """What the window is given.
+
+    Attributes:
+        cell: Started.
+        operator: The virtual operator of a demo, or None.
+        recorder: Writes the session.
+        demo: The emulators of a demo, or None.
+    """
+
+    cell: Cell
+    operator: OperatorClient | None
+    recorder: SessionWriter
+    demo: DemoCell | None
+
+
+def data_folder(chosen: Path | None = None) -> Path:
+    """Where sessions, takes and models are kept: the folder chosen, or the user's data folder.
+
+    Raises:
+        ConfigError: it cannot be made or written to.
+    """
+    folder = chosen or Path(platformdirs.user_data_dir(APP_NAME, appauthor=False))
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        reason = f"cannot be made: {error.strerror}; choose another with --data-dir"
+        raise ConfigError("data folder", str(folder), reason) from error
+    if not os.access(folder, os.W_OK):
+        reason = "cannot be written to; choose another with --data-dir"
+        raise ConfigError("data folder", str(folder), reason)
+    return folder
+
+
+def settings_files() -> list[Path]:
+    """The site's settings file, then the user's; either may be missing."""
+    site = Path(platformdirs.site_config_dir(APP_NAME, appauthor=False))
+    user = Path(platformdirs.user_config_dir(APP_NAME, appauthor=False))
+    return [site / "site.toml", user / "settings.toml"]
+
+
+@contextlib.contextmanager
+def running_cell(
+    settings: Settings, folder: Path, demo: DemoOptions | None = None
+) -> Iterator[RunningCell]:
+    """Start a cell; on leaving, the robot is stopped and everything is ended in order.
+
+    Args:
+        settings: Of the cell; in a demo the ports and the robot's address are the emulators'.
+        folder: Where sessions are recorded.
+        demo: Start emulators and use them instead of hardware.
+
+    Raises:
+        GestureAppError: something could not be started.
+    """
+    with contextlib.ExitStack() as opened:
+        emulators = None
+        if demo is not None:
+            emulators = opened.enter_context(DemoCell(demo))
+            settings = emulators.settings(settings)
+        recorder = SessionWriter(folder, monotonic, time.time, describe(settings))
+        recorder.start()
+        opened.callback(recorder.stop)
+        log_file = folder / "guardian.log"
+        cell = Cell(settings, recorder.put, lambda: recorder.status, log_file, time.time)
+        opened.callback(cell.shutdown)
+        cell.start()
+        operator = emulators.operator if emulators is not None else None
+        yield RunningCell(cell, operator, recorder, emulators)
+
+
+def describe(settings: Settings) -> dict[str, str]:
+    """The metadata of a session: version, mode, and every setting as it is used."""
+    facts = {
+        "app_version": __version__,
+        "mode": "simulation" if settings.is_simulation else "live",
+        "person": settings.person.name,
+    }
+    for table in ("left", "right", "site", "robot", "person"):
+        values = getattr(settings, table)
+        facts |= {f"{table}.{f.name}": str(getattr(values, f.name)) for f in fields(values)}
+    return facts

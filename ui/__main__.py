@@ -1,0 +1,22 @@
+"""``gestureapp``: the application, and every command. Qt is imported only when a window opens."""
+
+import sys
+
+from gestureapp import cli
+from gestureapp.running import RunningCell
+
+
+def open_window(running: RunningCell, exit_after_s: float | None) -> int:
+    """Show the window of a running cell until it is closed; the exit code."""
+    from ui.app import run_window
+
+    return run_window(running.cell, running.operator, exit_after_s)
+
+
+def main() -> int:
+    """The console script."""
+    return cli.main(open_window=open_window)
+
+
+if __name__ == "__main__":
+    sys.exit(main())
