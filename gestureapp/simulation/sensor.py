@@ -235,6 +235,9 @@ def _check(options: SensorOptions) -> None:
         raise ConfigError("protocol", options.protocol, f"unknown; one of {known}")
     if not 1.0 <= options.rate_hz <= RATE_MAX_HZ:
         raise ConfigError("rate", options.rate_hz, f"must be 1 to {RATE_MAX_HZ:g} Hz")
+    for name, number in (("seed", options.seed), ("session", options.session)):
+        if not 0 <= number < 1 << 32:
+            raise ConfigError(name, number, "must be a whole number from 0 to 4294967295")
     if options.protocol == "adxl330" and not options.has_counter:
         raise ConfigError("counter", False, "adxl330 always carries a running number; csv need not")
     for name, port in (("port", options.port), ("control-port", options.control_port or 0)):

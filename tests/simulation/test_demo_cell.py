@@ -78,3 +78,11 @@ def test_an_emulator_that_dies_later_is_told_in_words():
         assert demo.right.wait_ended(LIMIT_S)
         assert demo.problem.startswith("right sensor emulator: ended with code -9")
         assert "start the demo again" in demo.problem
+
+
+def test_the_applications_own_command_starts_a_controller_that_answers():
+    with DemoCell() as demo:
+        robot = demo.settings().robot
+        with socket.create_connection((robot.host, robot.port), LIMIT_S) as link:
+            link.sendall(b"CONNECT Robot_access\r\n")
+            assert link.recv(100).startswith(b"OK: ")

@@ -265,6 +265,8 @@ def test_a_port_in_use_is_named_with_the_remedy(right):
         ({"rate_hz": float("nan")}, "rate"),
         ({"port": 70_000}, "port"),
         ({"control_port": -1}, "control-port"),
+        ({"seed": -1}, "seed"),
+        ({"session": 1 << 40}, "session"),
         ({"protocol": "adxl330", "has_counter": False}, "counter"),
     ],
 )
