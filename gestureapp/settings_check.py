@@ -1,0 +1,213 @@
+"""Whether settings can be used: ranges, pairs that belong together, limits that may only narrow.
+
+Pure. What is wrong comes out as findings, all of them at once; nothing is raised.
+"""
+
+import math
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass, fields, is_dataclass
+from pathlib import Path
+from typing import Any, Final
+
+from gestureapp.config import RobotSettings, SensorSettings, Settings, SiteSettings
+
+UNITS: Final[Mapping[str, str]] = {
+    "_mm_s": "mm/s",
+    "_deg_s": "deg/s",
+    "_mm": "mm",
+    "_deg": "deg",
+    "_hz": "Hz",
+    "_s": "s",
+    "_g": "g",
+}
+"""By the end of a setting's name, longest first."""
+
+
+@dataclass(frozen=True, slots=True)
+class Range:
+    """Lowest and highest value allowed, both included; of each element where there are several."""
+
+    low: float
+    high: float
+
+    def __contains__(self, value: float) -> bool:
+        return self.low <= value <= self.high
+
+    def __str__(self) -> str:
+        return f"{self.low:g} to {self.high:g}"
+
+
+@dataclass(frozen=True, slots=True)
+class SettingsFinding:
+    """One thing that is wrong with the settings; ``str()`` of it is one line for a person.
+
+    Attributes:
+        setting: Dotted name, ``robot.speed_mm_s``.
+        text: What is wrong, what is allowed, and what is used instead.
+        file: Where it stands; None when it is in no file.
+        line: Line in that file, from 1; None when it is in no file, or could not be told.
+    """
+
+    setting: str
+    text: str
+    file: Path | None = None
+    line: int | None = None
+
+    def __str__(self) -> str:
+        line = "" if self.line is None else f", line {self.line}"
+        where = "" if self.file is None else f"{self.file}{line}: "
+        return f"{where}{self.setting}: {self.text}"
+
+
+RANGES: Final[Mapping[tuple[type, str], Range]] = {
+    (SensorSettings, "offset"): Range(-1.0, 1.0),
+    (SensorSettings, "gain"): Range(0.5, 2.0),
+    (SiteSettings, "trip_level_s"): Range(0.05, 0.3),
+    (SiteSettings, "control_limit_s"): Range(0.1, 0.5),
+    (SiteSettings, "gui_limit_s"): Range(0.2, 1.0),
+    # Sensors send at 100 Hz; below 20 a window says nothing, above 1000 no port keeps up.
+    (SiteSettings, "rate_min_hz"): Range(20.0, 1000.0),
+    (SiteSettings, "rate_max_hz"): Range(20.0, 1000.0),
+    (SiteSettings, "posture_enter_deg"): Range(5.0, 44.0),
+    (SiteSettings, "posture_leave_deg"): Range(5.0, 44.0),
+    (SiteSettings, "posture_debounce"): Range(1, 20),
+    (SiteSettings, "stop_seen_s"): Range(0.1, 5.0),
+    (RobotSettings, "port"): Range(1, 65535),
+    (RobotSettings, "ext_radius_mm"): Range(100.0, 1378.5),
+    (RobotSettings, "int_radius_mm"): Range(100.0, 1378.5),
+    (RobotSettings, "margin_mm"): Range(1.0, 200.0),
+    (RobotSettings, "speed_mm_s"): Range(1.0, 250.0),
+    (RobotSettings, "speed_deg_s"): Range(0.5, 30.0),
+    # A tool that points down reads Rx = 180, so a range about it passes 180: up to a full turn.
+    (RobotSettings, "rx_range_deg"): Range(-360.0, 360.0),
+    (RobotSettings, "ry_range_deg"): Range(-360.0, 360.0),
+    (RobotSettings, "rz_range_deg"): Range(-360.0, 360.0),
+    (RobotSettings, "margin_deg"): Range(0.1, 45.0),
+    (RobotSettings, "frame"): Range(0, 25),
+    (RobotSettings, "tool"): Range(0, 23),
+}
+"""Every number has one (a test sees to it)."""
+
+PAIRS: Final[tuple[tuple[str, str], ...]] = (
+    ("robot.int_radius_mm", "robot.ext_radius_mm"),
+    ("site.posture_enter_deg", "site.posture_leave_deg"),
+    ("site.rate_min_hz", "site.rate_max_hz"),
+)
+"""The first must be below the second."""
+
+
+def _at_most(new: Any, below: Any) -> bool:  # noqa: ANN401 - a number of the setting's type
+    return bool(new <= below)
+
+
+def _at_least(new: Any, below: Any) -> bool:  # noqa: ANN401
+    return bool(new >= below)
+
+
+def _inside(new: Any, below: Any) -> bool:  # noqa: ANN401 - a low and a high value
+    return bool(below[0] <= new[0] and new[1] <= below[1])
+
+
+NARROWER: Final[Mapping[str, tuple[Callable[[Any, Any], bool], str]]] = {
+    "site.trip_level_s": (_at_most, "at most"),
+    "site.control_limit_s": (_at_most, "at most"),
+    "site.gui_limit_s": (_at_most, "at most"),
+    "site.stop_on_right_lost": (_at_least, "nothing but"),
+    "robot.ext_radius_mm": (_at_most, "at most"),
+    "robot.int_radius_mm": (_at_least, "at least"),
+    "robot.margin_mm": (_at_least, "at least"),
+    "robot.margin_deg": (_at_least, "at least"),
+    "robot.speed_mm_s": (_at_most, "at most"),
+    "robot.speed_deg_s": (_at_most, "at most"),
+    "robot.rx_range_deg": (_inside, "a range inside"),
+    "robot.ry_range_deg": (_inside, "a range inside"),
+    "robot.rz_range_deg": (_inside, "a range inside"),
+}
+"""What limits motion: a later layer may set it narrower than the site, never wider."""
+
+
+def check_settings(settings: Settings, site: Settings | None = None) -> list[SettingsFinding]:
+    """Everything that is wrong with these settings.
+
+    Args:
+        settings: As they would be used, after command-line overrides for instance.
+        site: The settings whose motion limits hold; None where there are none yet.
+    """
+    found = [
+        SettingsFinding(name, text)
+        for name, owner, value in named_values(settings)
+        if (text := why_out_of_range(owner, name.rpartition(".")[2], value))
+    ]
+    values = {name: value for name, _, value in named_values(settings)}
+    found += [
+        SettingsFinding(low, why_not_below(values, low, high)) for low, high in bad_pairs(values)
+    ]
+    if site is not None:
+        limits = {name: value for name, _, value in named_values(site)}
+        wider = {name: why_wider(name, values[name], limits[name]) for name in NARROWER}
+        found += [SettingsFinding(name, text) for name, text in wider.items() if text]
+    return found
+
+
+def named_values(settings: Settings) -> Iterator[tuple[str, type, Any]]:
+    """Every setting of every table: dotted name, the dataclass it stands in, value."""
+    for table in fields(settings):
+        values = getattr(settings, table.name)
+        if is_dataclass(values):
+            for setting in fields(values):
+                yield f"{table.name}.{setting.name}", type(values), getattr(values, setting.name)
+
+
+def why_out_of_range(owner: type, name: str, value: object) -> str:
+    """What is wrong with one value by itself, and what is allowed; empty when nothing is."""
+    allowed = RANGES.get((owner, name))
+    if allowed is None:
+        return ""
+    numbers = value if isinstance(value, tuple) else (value,)
+    if not all(isinstance(n, int | float) and math.isfinite(n) and n in allowed for n in numbers):
+        return f"{shown(value)} is not allowed; allowed is {allowed}{_unit_text(name)}"
+    if name.endswith("_range_deg") and not numbers[0] < numbers[1]:
+        return f"{shown(value)} is no range; the first number must be below the second"
+    return ""
+
+
+def bad_pairs(values: Mapping[str, Any]) -> list[tuple[str, str]]:
+    """The pairs whose first value is not below the second."""
+    return [(low, high) for low, high in PAIRS if not values[low] < values[high]]
+
+
+def why_not_below(values: Mapping[str, Any], low: str, high: str) -> str:
+    """The sentence for such a pair."""
+    return f"{shown(values[low])} must be below {high} = {shown(values[high])}"
+
+
+def why_wider(name: str, new: object, limit: object) -> str:
+    """Why a later layer may not set this value; empty when it may."""
+    if name not in NARROWER:
+        return ""
+    is_narrower, words = NARROWER[name]
+    if is_narrower(new, limit):
+        return ""
+    unit = _unit_text(name)
+    return f"{shown(new)} is wider than the site allows; allowed is {words} {shown(limit)}{unit}"
+
+
+def unit_of(name: str) -> str:
+    """The unit in a setting's name; empty where it has none."""
+    return next((unit for ending, unit in UNITS.items() if name.endswith(ending)), "")
+
+
+def shown(value: object) -> str:
+    """A value as it may stand in a line: short, and without line breaks."""
+    if isinstance(value, tuple | list):
+        text = f"[{', '.join(shown(item) for item in value[:4])}{', …' * (len(value) > 4)}]"
+    elif isinstance(value, bool):
+        text = str(value).lower()
+    else:
+        text = repr(value)
+    return text if len(text) <= 60 else f"{text[:57]}…"
+
+
+def _unit_text(name: str) -> str:
+    unit = unit_of(name)
+    return f" {unit}" if unit else ""

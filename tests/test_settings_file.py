@@ -1,0 +1,513 @@
+"""Settings come from layers of TOML; what is wrong in them is reported and never used."""
+
+import math
+import os
+from dataclasses import fields, replace
+from enum import Enum
+from pathlib import Path
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from gestureapp.config import (
+    DriveMode,
+    PersonSettings,
+    RobotSettings,
+    SensorSettings,
+    Settings,
+    SiteSettings,
+)
+from gestureapp.errors import ConfigError
+from gestureapp.settings_check import NARROWER, PAIRS, RANGES, named_values
+from gestureapp.settings_file import (
+    check_settings,
+    default_settings_text,
+    load_settings,
+    settings_text,
+)
+
+
+@pytest.fixture
+def layer(tmp_path):
+    """Writes a settings file of this name; gives its path."""
+
+    def write(text, name="site.toml"):
+        path = tmp_path / name
+        path.write_text(text, encoding="utf-8")
+        return path
+
+    return write
+
+
+def _site(text):
+    return f"schema = 1\n{text}\n"
+
+
+# What comes out when nothing is wrong.
+
+
+def test_without_files_the_built_in_settings_hold(tmp_path):
+    assert load_settings([]) == (Settings(), [])
+    assert load_settings([tmp_path / "absent.toml"]) == (Settings(), [])
+
+
+def test_the_built_in_settings_are_allowed_themselves():
+    assert check_settings(Settings()) == []
+    assert check_settings(Settings(), Settings()) == []
+
+
+def test_the_default_text_gives_the_default_settings_back(layer):
+    assert load_settings([layer(default_settings_text())]) == (Settings(), [])
+
+
+def test_the_default_text_explains_every_setting_with_unit_and_range():
+    lines = default_settings_text().split("\n")
+    for name, owner, _ in named_values(Settings()):
+        table, _, setting = name.partition(".")
+        start = lines.index(f"[{table}]")
+        at = next(i for i in range(start, len(lines)) if lines[i].startswith(f"{setting} = "))
+        assert lines[at - 1].startswith("# "), f"{name} has no description"
+        if (owner, setting) in RANGES:
+            assert "Allowed: " in " ".join(lines[at - 2 : at])
+    text = default_settings_text()
+    assert "Allowed: 0.05 to" in text
+    assert "Allowed: 1 to 250 mm/s." in text
+    assert 'One of: "hold_to_run", "start_stop".' in text
+    assert all(len(line) <= 100 for line in lines)
+
+
+def test_every_number_has_a_range_and_every_range_a_number():
+    has_number = {
+        (owner, name.partition(".")[2])
+        for name, owner, value in named_values(Settings())
+        if not isinstance(value, bool) and isinstance(value, int | float | tuple)
+    }
+    assert set(RANGES) == has_number
+
+
+def test_pairs_and_narrowing_limits_name_real_settings():
+    names = {name for name, _, _ in named_values(Settings())}
+    assert set(NARROWER) <= names
+    assert {name for pair in PAIRS for name in pair} <= names
+
+
+def test_later_layers_lie_over_earlier_ones(layer):
+    site = layer(_site('[robot]\nhost = "10.0.0.2"\ntool = 3\n[left]\nport = "COM3"'))
+    user = layer(_site('[left]\nport = "COM7"\n[person]\nname = "Ada"'), "user.toml")
+    loaded, found = load_settings([site, user])
+    assert found == []
+    assert (loaded.robot.host, loaded.robot.tool) == ("10.0.0.2", 3)
+    assert (loaded.left.port, loaded.person.name) == ("COM7", "Ada")
+    assert loaded.right == SensorSettings()
+
+
+def test_every_kind_of_value_is_taken(layer):
+    path = layer(
+        _site(
+            '[site]\ndrive_mode = "start_stop"\nstop_on_right_lost = false\nposture_debounce = 5\n'
+            "trip_level_s = 0.2\n[left]\noffset = [0, -0.5, 0.25]\n[robot]\nspeed_mm_s = 50\n"
+            'rx_range_deg = [90, 270.5]\n[person]\nmodel = "ada.json"'
+        )
+    )
+    loaded, found = load_settings([path])
+    assert found == []
+    assert loaded.site == replace(
+        SiteSettings(),
+        drive_mode=DriveMode.START_STOP,
+        stop_on_right_lost=False,
+        posture_debounce=5,
+        trip_level_s=0.2,
+    )
+    assert loaded.left.offset == (0.0, -0.5, 0.25)
+    assert isinstance(loaded.robot.speed_mm_s, float)
+    assert loaded.robot.rx_range_deg == (90.0, 270.5)
+    assert loaded.person.model == path.parent / "ada.json"
+
+
+def test_the_file_named_by_hand_is_the_top_layer(layer):
+    site = layer(_site("[robot]\ntool = 3\nframe = 2"))
+    named = layer(_site("[robot]\ntool = 4"), "mine.toml")
+    loaded, found = load_settings([site], named)
+    assert found == []
+    assert (loaded.robot.tool, loaded.robot.frame) == (4, 2)
+
+
+def test_a_byte_order_mark_and_windows_lines_are_read(tmp_path):
+    path = tmp_path / "site.toml"
+    path.write_bytes(b"\xef\xbb\xbfschema = 1\r\n[robot]\r\ntool = 3\r\ntoool = 4\r\n")
+    loaded, found = load_settings([path])
+    assert loaded.robot.tool == 3
+    assert [(finding.setting, finding.line) for finding in found] == [("robot.toool", 4)]
+
+
+_TEXT = st.text(st.characters(codec="utf-8"), max_size=20)
+
+
+def _numbers(owner, name, value):
+    allowed = RANGES[owner, name]
+    if isinstance(value, int):
+        return st.integers(int(allowed.low), int(allowed.high))
+    one = st.floats(allowed.low, allowed.high)
+    if not isinstance(value, tuple):
+        return one
+    several = st.tuples(*[one] * len(value))
+    if name.endswith("_range_deg"):
+        return several.map(sorted).map(tuple).filter(lambda pair: pair[0] < pair[1])
+    return several
+
+
+def _values(owner, name, value):
+    if isinstance(value, bool):
+        return st.booleans()
+    if isinstance(value, Enum):
+        return st.sampled_from(type(value))
+    if isinstance(value, str):
+        return _TEXT
+    if value is None:
+        return st.none() | st.just(Path('/models/Ådá \\ "x" \x7f.json'))
+    return _numbers(owner, name, value)
+
+
+def _tables(owner):
+    built_in = {field.name: field.default for field in fields(owner)}
+    kinds = {name: _values(owner, name, value) for name, value in built_in.items()}
+    return st.builds(owner, **kinds)
+
+
+def _in_order(made):
+    """The same settings with the two values of every pair the right way round."""
+    for low, high in PAIRS:
+        table = low.partition(".")[0]
+        names = [name.partition(".")[2] for name in (low, high)]
+        values = sorted(getattr(getattr(made, table), name) for name in names)
+        own = replace(getattr(made, table), **dict(zip(names, values, strict=True)))
+        made = replace(made, **{table: own})
+    return made
+
+
+_ALLOWED = (
+    st.builds(
+        Settings,
+        left=_tables(SensorSettings),
+        right=_tables(SensorSettings),
+        site=_tables(SiteSettings),
+        robot=_tables(RobotSettings),
+        person=_tables(PersonSettings),
+    )
+    .map(_in_order)
+    .filter(lambda made: not check_settings(made))
+)
+
+
+@settings(max_examples=50, deadline=None)
+@given(made=_ALLOWED)
+def test_any_allowed_settings_survive_being_written_and_read(tmp_path_factory, made):
+    path = tmp_path_factory.getbasetemp() / "any.toml"
+    path.write_text(settings_text(made), encoding="utf-8")
+    assert load_settings([path]) == (made, [])
+
+
+@settings(max_examples=50, deadline=None)
+@given(site=_ALLOWED, user=_ALLOWED)
+def test_a_user_file_never_widens_what_the_site_allows(tmp_path_factory, site, user):
+    folder = tmp_path_factory.getbasetemp()
+    (folder / "s.toml").write_text(settings_text(site), encoding="utf-8")
+    (folder / "u.toml").write_text(settings_text(user), encoding="utf-8")
+    loaded, found = load_settings([folder / "s.toml", folder / "u.toml"])
+    assert check_settings(loaded, site) == []
+    assert loaded.robot.speed_mm_s == min(site.robot.speed_mm_s, user.robot.speed_mm_s)
+    assert loaded.site.trip_level_s == min(site.site.trip_level_s, user.site.trip_level_s)
+    widened = {finding.setting for finding in check_settings(user, site)}
+    assert widened <= {finding.setting for finding in found}
+
+
+# What is wrong in a file.
+
+
+@pytest.mark.parametrize(
+    ("table", "name", "low", "high", "step"),
+    [
+        ("site", "trip_level_s", 0.05, 0.3, 0.001),
+        ("site", "control_limit_s", 0.1, 0.5, 0.001),
+        ("site", "gui_limit_s", 0.2, 1.0, 0.001),
+        ("site", "posture_debounce", 1, 20, 1),
+        ("robot", "speed_mm_s", 1.0, 250.0, 0.1),
+        ("robot", "speed_deg_s", 0.5, 30.0, 0.1),
+        ("robot", "margin_mm", 1.0, 200.0, 0.1),
+        ("robot", "port", 1, 65535, 1),
+        ("robot", "tool", 0, 23, 1),
+        ("robot", "frame", 0, 25, 1),
+    ],
+)
+def test_limits_are_allowed_and_what_lies_beyond_is_not(layer, table, name, low, high, step):
+    for value in (low, high):
+        loaded, found = load_settings([layer(_site(f"[{table}]\n{name} = {value}"))])
+        assert found == []
+        assert getattr(getattr(loaded, table), name) == value
+    for value in (low - step, high + step):
+        loaded, found = load_settings([layer(_site(f"[{table}]\n{name} = {value}"))])
+        assert loaded == Settings()
+        assert [(one.setting, one.line) for one in found] == [(f"{table}.{name}", 3)]
+        assert f"allowed is {low:g} to {high:g}" in found[0].text
+
+
+@pytest.mark.parametrize(
+    ("setting", "words"),
+    [
+        ("[robot]\nspeed_mm_s = 'fast'", "allowed is a number"),
+        ("[robot]\nspeed_mm_s = true", "allowed is a number"),
+        ("[robot]\nspeed_mm_s = nan", "allowed is a finite number"),
+        ("[robot]\nspeed_mm_s = inf", "allowed is a finite number"),
+        ("[robot]\nspeed_mm_s = 1" + "0" * 400, "allowed is a finite number"),
+        ("[robot]\nspeed_mm_s = 1979-05-27", "allowed is a number"),
+        ("[robot]\ntool = 1.0", "allowed is a whole number"),
+        ("[robot]\ntool = true", "allowed is a whole number"),
+        ("[robot]\nhost = 5", "allowed is a text in quotes"),
+        ("[robot]\nhost.name = 'x'", "allowed is a text in quotes"),
+        ("[site]\nstop_on_right_lost = 1", "allowed is true or false"),
+        ("[site]\ndrive_mode = 'fly'", 'allowed is "hold_to_run" or "start_stop"'),
+        ("[left]\noffset = [0, 0]", "allowed is a list of 3 numbers"),
+        ("[left]\noffset = [0, 0, 'x']", "allowed is a number"),
+        ("[left]\ngain = [1, 1, 2.1]", "allowed is 0.5 to 2"),
+        ("[left]\ngain = 1.0", "allowed is a list of 3 numbers"),
+        ("[robot]\nrx_range_deg = [90, 90]", "first number must be below the second"),
+        ("[person]\nmodel = 5", "the name of a file"),
+    ],
+)
+def test_a_wrong_value_is_reported_with_its_line_and_not_used(layer, setting, words):
+    path = layer(_site(setting))
+    loaded, found = load_settings([path])
+    assert loaded == Settings()
+    assert len(found) == 1
+    assert words in found[0].text
+    assert "is used" in found[0].text
+    assert (found[0].file, found[0].line) == (path, 3)
+    assert str(found[0]).startswith(f"{path}, line 3: ")
+    assert "\n" not in str(found[0])
+    assert len(found[0].text) < 250
+
+
+def test_a_wrong_value_of_the_user_keeps_the_sites(layer):
+    site = layer(_site("[robot]\nspeed_mm_s = 50"))
+    user = layer(_site("[robot]\nspeed_mm_s = 'x'"), "user.toml")
+    loaded, found = load_settings([site, user])
+    assert loaded.robot.speed_mm_s == 50.0
+    assert found[0].text.endswith("50.0 is used")
+
+
+@pytest.mark.parametrize(
+    ("text", "setting", "line", "words"),
+    [
+        ("[robot]\nhost = ''\nsped_mm_s = 1", "robot.sped_mm_s", 4, "did you mean speed_mm_s?"),
+        ("[robbot]\ntool = 1", "robbot", 2, "did you mean robot?"),
+        ("speed = 1", "speed", 2, "unknown"),
+        ("\n# c\n[site]\nzzz = '''\n\n'''\nyyyy = 1", "site.yyyy", 8, "unknown"),
+        ("[left]\nport = ''\n[left.sub]\nx = 1", "left.sub", 4, "unknown"),
+        ("left.prt = 'COM1'", "left.prt", 2, "did you mean port?"),
+        ("left = { prt = 'COM1' }", "left.prt", 2, "did you mean port?"),
+        ("left = 5", "left", 2, "must be a table"),
+        ("[[left]]\nport = 'x'", "left", 2, "must be a table"),
+        ('["left"]\n"p rt" = 1', "left.p rt", 3, "unknown"),
+        ("is_simulation = true", "is_simulation", 2, "unknown"),
+        ("[robot]\nlist = [\n 1,\n 2,\n]\ntol = 1", "robot.tol", 7, "did you mean tool?"),
+    ],
+)
+def test_an_unknown_key_is_reported_with_its_line(layer, text, setting, line, words):
+    loaded, found = load_settings([layer(_site(text))])
+    assert loaded == Settings()
+    by_name = {finding.setting: finding for finding in found}
+    assert by_name[setting].line == line
+    assert words in by_name[setting].text
+
+
+def test_every_wrong_thing_is_reported_at_once(layer):
+    path = layer(_site("[robot]\ntool = 99\nport = 0\n[site]\nx = 1\n[left]\ngain = 3"))
+    _, found = load_settings([path])
+    assert [(one.setting, one.line) for one in found] == [
+        ("robot.tool", 3),
+        ("robot.port", 4),
+        ("site.x", 6),
+        ("left.gain", 8),
+    ]
+
+
+@pytest.mark.parametrize(
+    ("text", "setting", "line"),
+    [
+        ("[robot]\nint_radius_mm = 1300", "robot.int_radius_mm", 3),
+        ("[robot]\next_radius_mm = 400", "robot.ext_radius_mm", 3),
+        ("[robot]\next_radius_mm = 600\nint_radius_mm = 600", "robot.int_radius_mm", 4),
+        ("[site]\nposture_enter_deg = 40", "site.posture_enter_deg", 3),
+        ("[site]\nrate_max_hz = 50", "site.rate_max_hz", 3),
+    ],
+)
+def test_two_values_that_do_not_fit_leave_those_below(layer, text, setting, line):
+    loaded, found = load_settings([layer(_site(text))])
+    assert loaded == Settings()
+    assert [(one.setting, one.line) for one in found] == [(setting, line)]
+    assert "must be below" in found[0].text
+
+
+@pytest.mark.parametrize(
+    ("table", "name", "site", "wider", "narrower"),
+    [
+        ("site", "trip_level_s", "0.15", "0.16", "0.14"),
+        ("site", "control_limit_s", "0.3", "0.31", "0.29"),
+        ("site", "gui_limit_s", "0.6", "0.61", "0.59"),
+        ("site", "stop_on_right_lost", "true", "false", "true"),
+        ("robot", "ext_radius_mm", "1100", "1100.1", "1099.9"),
+        ("robot", "int_radius_mm", "600", "599.9", "600.1"),
+        ("robot", "margin_mm", "30", "29.9", "30.1"),
+        ("robot", "margin_deg", "5", "4.9", "5.1"),
+        ("robot", "speed_mm_s", "150", "150.1", "149.9"),
+        ("robot", "speed_deg_s", "12", "12.1", "11.9"),
+        ("robot", "rx_range_deg", "[130, 230]", "[129, 230]", "[131, 229]"),
+        ("robot", "ry_range_deg", "[-30, 30]", "[-30, 31]", "[-30, 30]"),
+        ("robot", "rz_range_deg", "[-30, 30]", "[-90, 90]", "[0, 1]"),
+    ],
+)
+def test_a_later_layer_may_narrow_a_motion_limit_and_not_widen_it(
+    layer, table, name, site, wider, narrower
+):
+    base = layer(_site(f"[{table}]\n{name} = {site}"))
+    by_site, found = load_settings([base])
+    assert found == []
+    user = layer(_site(f"[{table}]\n{name} = {wider}"), "user.toml")
+    loaded, found = load_settings([base, user])
+    assert loaded == by_site
+    assert [(one.file, one.setting, one.line) for one in found] == [(user, f"{table}.{name}", 3)]
+    assert "wider than the site allows" in found[0].text
+    assert load_settings([base], user) == (loaded, found)
+    user = layer(_site(f"[{table}]\n{name} = {narrower}"), "user.toml")
+    assert load_settings([base, user])[1] == []
+    assert f"{table}.{name}" in NARROWER
+
+
+def test_an_absent_site_file_leaves_the_built_in_limits_to_the_user(layer, tmp_path):
+    user = layer(_site("[robot]\nspeed_mm_s = 200"), "user.toml")
+    loaded, found = load_settings([tmp_path / "absent.toml", user])
+    assert loaded.robot.speed_mm_s == 100.0
+    assert "at most 100.0 mm/s" in found[0].text
+
+
+def test_a_missing_schema_is_reported_and_taken_as_ours(layer):
+    loaded, found = load_settings([layer("[robot]\ntool = 2\n")])
+    assert loaded.robot.tool == 2
+    assert [one.setting for one in found] == ["schema"]
+    assert "schema = 1" in found[0].text
+
+
+def test_command_line_overrides_are_checked_by_the_same_table():
+    wild = replace(
+        Settings(),
+        robot=replace(RobotSettings(), speed_mm_s=251.0, int_radius_mm=1300.0, margin_mm=math.nan),
+    )
+    found = {finding.setting: str(finding) for finding in check_settings(wild)}
+    assert set(found) == {"robot.speed_mm_s", "robot.int_radius_mm", "robot.margin_mm"}
+    assert found["robot.speed_mm_s"] == (
+        "robot.speed_mm_s: 251.0 is not allowed; allowed is 1 to 250 mm/s"
+    )
+    faster = replace(Settings(), robot=replace(RobotSettings(), speed_mm_s=150.0))
+    assert check_settings(faster) == []
+    assert [one.setting for one in check_settings(faster, Settings())] == ["robot.speed_mm_s"]
+
+
+# What is no settings file at all.
+
+
+@pytest.mark.parametrize(
+    ("data", "words"),
+    [
+        (b"schema = 1\n[robot\n", "line 2: not TOML"),
+        (b"schema = 1\nx = \n", "line 2: not TOML"),
+        (b"schema = 1\nx = [1,\n2", "line 3: not TOML"),
+        (b"schema = 1\nx = 1\nx = 2\n", "not TOML: Cannot overwrite a value"),
+        (b"schema = 1\n\xff\n", "line 2: not UTF-8"),
+        (b"x = " + b"[" * 40_000, "nested too deeply"),
+        (b"x = " + b"1" * 5000, "not TOML"),
+        (b"#" * 100_001, "larger than"),
+        (b"schema = 2\n", "reads schema 1"),
+        (b"\n\nschema = 'x'\n", "line 3: this application reads schema 1"),
+        (b"schema = true\n", "reads schema 1"),
+    ],
+)
+def test_a_file_that_is_no_settings_file_is_refused_in_one_line(tmp_path, data, words):
+    path = tmp_path / "site.toml"
+    path.write_bytes(data)
+    with pytest.raises(ConfigError) as caught:
+        load_settings([path])
+    assert words in str(caught.value)
+    assert str(path) in str(caught.value)
+    assert "\n" not in str(caught.value)
+
+
+def test_a_file_named_by_hand_must_be_there(tmp_path):
+    with pytest.raises(ConfigError, match="cannot be read: No such file"):
+        load_settings([], tmp_path / "absent.toml")
+
+
+@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="no named pipes here")
+def test_a_folder_and_a_pipe_are_no_settings_files(tmp_path):
+    os.mkfifo(tmp_path / "pipe")
+    for path in (tmp_path, tmp_path / "pipe"):
+        with pytest.raises(ConfigError, match="not a file"):
+            load_settings([path])
+
+
+def test_a_statement_of_absurd_length_costs_only_the_line_numbers(layer):
+    text = "[robot]\nx = [\n" + "1,\n" * 2000 + "]\ntol = 1"
+    _, found = load_settings([layer(_site(text))])
+    assert [one.setting for one in found] == ["robot.x", "robot.tol"]
+    assert found[1].line is None
+    assert "line" not in str(found[1]).split("robot.tol")[0]
+
+
+@settings(max_examples=100, deadline=None)
+@given(data=st.binary(max_size=200) | _TEXT.map(str.encode))
+def test_any_bytes_give_settings_or_one_line(tmp_path_factory, data):
+    path = tmp_path_factory.getbasetemp() / "rubbish.toml"
+    path.write_bytes(data)
+    try:
+        loaded, found = load_settings([path])
+    except ConfigError as error:
+        lines = [str(error)]
+    else:
+        assert check_settings(loaded) == []
+        lines = [str(finding) for finding in found]
+    assert all(len(line.splitlines()) == 1 for line in lines)
+
+
+_TOML_VALUES = st.sampled_from(
+    [
+        "1",
+        "-1",
+        "0.1",
+        "1e9",
+        "nan",
+        "''",
+        "'x'",
+        "true",
+        "[]",
+        "[1, 2]",
+        "[0, 0, 0]",
+        "{}",
+        "{a=1}",
+    ]
+)
+_KEYS = st.sampled_from(
+    [name for name, _, _ in named_values(Settings())] + ["left.x", "x", "schema"]
+)
+
+
+@settings(max_examples=100, deadline=None)
+@given(items=st.dictionaries(_KEYS, _TOML_VALUES, max_size=12))
+def test_any_values_give_allowed_settings_and_the_right_lines(tmp_path_factory, items):
+    path = tmp_path_factory.getbasetemp() / "values.toml"
+    items = {"schema": "1"} | {key: value for key, value in items.items() if key != "schema"}
+    path.write_text("".join(f"{key} = {value}\n" for key, value in items.items()))
+    loaded, found = load_settings([path])
+    assert check_settings(loaded) == []
+    lines = {key: number for number, key in enumerate(items, 1)}
+    for finding in found:
+        assert finding.line == lines[finding.setting]
