@@ -40,16 +40,19 @@ class AlarmBars(QWidget):
             bar.setContentsMargins(14, 5, 14, 5)
             bar.hide()
             layout.addWidget(bar)
+        self.hide()
 
     def show_unconfirmed(self, is_unconfirmed: bool) -> None:
         """Show or hide the alarm, and sound while it lasts."""
         if not is_unconfirmed:
             self._unconfirmed.hide()
             self._beeped_s = float("-inf")
+            self._fold()
             return
         if self._unconfirmed.isHidden():
             self._paint_red()
             self._unconfirmed.show()
+            self._fold()
         now_s = self._clock()
         if now_s - self._beeped_s >= _BEEP_EVERY_S:
             self._beeped_s = now_s
@@ -61,6 +64,10 @@ class AlarmBars(QWidget):
             self._paint_red()
             self._blind.setText(reason)
         self._blind.setVisible(bool(reason))
+        self._fold()
+
+    def _fold(self) -> None:
+        self.setVisible(not (self._unconfirmed.isHidden() and self._blind.isHidden()))
 
     def _paint_red(self) -> None:
         colours = colours_of(self.window().palette())

@@ -161,7 +161,7 @@ class ArmPlot(QFrame):
             item.getAxis(side).setStyle(tickFont=font, tickLength=-4)
         item.getAxis("left").setTicks([[(g, f"{g:+d}" if g else "0") for g in (-2, -1, 0, 1, 2)]])
         item.getAxis("left").setWidth(26)
-        item.getAxis("bottom").setTicks([[(-t, f"-{t} s" if t else "now") for t in (0, 2, 4, 6)]])
+        item.getAxis("bottom").setTicks([[(-t, f"-{t} s") for t in (1, 3, 5, 7)]])
         item.getAxis("bottom").setHeight(18)
 
     def _colour(self) -> None:

@@ -12,8 +12,10 @@ from ui.output_bars import OutputBars
 from ui.theme import LARGE_PX, SMALL_PX, TEXT_PX, sized
 from ui.words import decision_text, not_recognised_text
 
-NOTHING = "-"
-"""The big label while there is no gesture to name."""
+NOTHING = ""
+"""The big label before the first gesture."""
+UNSURE = "?"
+"""The big label of "not recognised"."""
 
 
 class GesturePanel(QFrame):
@@ -26,9 +28,9 @@ class GesturePanel(QFrame):
         title = plain("gestureTitle", TEXT_PX, is_wrapped=False)
         title.setText("Recognised gesture")
         sized(title, TEXT_PX, is_bold=True)
-        self._label = BigWord("RX+", 64, 130)
+        self._label = BigWord("RX+", 67, 130)
         self._label.setObjectName("gestureLabel")
-        self._words = plain("gestureWords", LARGE_PX)
+        self._words = plain("gestureWords", LARGE_PX - 1)
         self._arrow = DirectionView()
         self._certainty = QProgressBar()
         self._certainty.setObjectName("certaintyBar")
@@ -36,18 +38,15 @@ class GesturePanel(QFrame):
         self._certainty.setMaximumHeight(20)
         self._time = plain("decisionLabel", SMALL_PX)
         self._bars = OutputBars()
-        said = QVBoxLayout()
-        said.setSpacing(2)
-        said.addWidget(self._label, 1)
-        said.addWidget(self._words)
         top = QHBoxLayout()
-        top.addLayout(said, 3)
-        top.addWidget(self._arrow, 2)
+        top.addWidget(self._label, 1)
+        top.addWidget(self._arrow, 1)
         layout = QVBoxLayout(self)
         layout.setContentsMargins(10, 6, 10, 6)
         layout.setSpacing(4)
         layout.addWidget(title)
         layout.addLayout(top, 3)
+        layout.addWidget(self._words)
         layout.addWidget(self._certainty)
         layout.addWidget(self._time)
         layout.addWidget(self._bars, 2)
@@ -71,7 +70,7 @@ class GesturePanel(QFrame):
         elif recognition.label is None:
             best = recognition.best[0].confidence if recognition.best else 0.0
             reason = f"not recognised: {not_recognised_text(recognition)}"
-            self._show(NOTHING, reason, best, decision_text(recognition))
+            self._show(UNSURE, reason, best, decision_text(recognition))
         else:
             certainty = _certainty_of(recognition)
             words = _words_of(recognition.label)

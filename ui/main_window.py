@@ -3,13 +3,15 @@
 import logging
 
 from PySide6.QtCore import Qt, QTimer
-from PySide6.QtGui import QCloseEvent
+from PySide6.QtGui import QCloseEvent, QPalette, QResizeEvent
 from PySide6.QtWidgets import (
     QApplication,
     QFrame,
     QGridLayout,
     QHBoxLayout,
+    QLayout,
     QMainWindow,
+    QScrollArea,
     QVBoxLayout,
     QWidget,
 )
@@ -35,6 +37,8 @@ FRAME_MS = 30
 """33 frames a second."""
 STOP_SHARE = 6
 """The slab takes at least this part, one sixth, of the window's width."""
+_LEAST = (900, 500)
+"""Everything is in sight from 1280 by 720 on; below that the middle scrolls, never STOP."""
 _BEFORE_A_MOVE = (CellState.NOT_READY, CellState.READY, CellState.STOPPED)
 
 
@@ -118,6 +122,11 @@ class MainWindow(QMainWindow):
         self._remove_keys()
         event.accept()
 
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        """Keep the slab's share of the width."""
+        super().resizeEvent(event)
+        self._slab.setFixedWidth(-(-self.width() // STOP_SHARE))
+
     def _show(self, snapshot: Snapshot) -> None:
         self._bars.show_unconfirmed(snapshot.is_stop_unconfirmed)
         self._state.show_snapshot(snapshot)
@@ -156,6 +165,8 @@ class MainWindow(QMainWindow):
     def _lay_out(self) -> None:
         for panel in self._panels():
             panel.setFrameShape(QFrame.Shape.StyledPanel)
+            panel.setBackgroundRole(QPalette.ColorRole.AlternateBase)
+            panel.setAutoFillBackground(True)
         told = QVBoxLayout()
         told.addWidget(self._blockers, 3)
         told.addWidget(self._motion, 2)
@@ -167,22 +178,23 @@ class MainWindow(QMainWindow):
         plots.addWidget(self._left_plot)
         plots.addWidget(self._right_plot)
         right.addLayout(plots, 1, 0, 1, 5)
-        right.setRowStretch(0, 5)
-        right.setRowStretch(1, 3)
+        right.setRowStretch(0, 9)
+        right.setRowStretch(1, 7)
         for column in range(5):
             right.setColumnStretch(column, 1)
         middle = QHBoxLayout()
         middle.addLayout(told, 4)
         middle.addLayout(right, 9)
         work = QVBoxLayout()
-        work.addWidget(self._state)
-        work.addLayout(middle, 1)
+        work.setContentsMargins(0, 0, 0, 0)
+        work.addWidget(self._state, 2)
+        work.addLayout(middle, 11)
         if self._virtual is not None:
             work.addWidget(self._virtual)
         body = QHBoxLayout()
         body.setContentsMargins(6, 0, 6, 6)
-        body.addLayout(work, STOP_SHARE - 1)
-        body.addWidget(self._slab, 1)
+        body.addWidget(_scrolling(work), 1)
+        body.addWidget(self._slab)
         for layout in (told, right, plots, middle, work, body):
             layout.setSpacing(6)
         whole = QWidget()
@@ -193,6 +205,7 @@ class MainWindow(QMainWindow):
         column_of_all.addWidget(self._bars)
         column_of_all.addLayout(body, 1)
         self.setCentralWidget(whole)
+        self.setMinimumSize(*_LEAST)
 
     def _panels(self) -> list[QFrame]:
         panels: list[QFrame] = [
@@ -202,7 +215,38 @@ class MainWindow(QMainWindow):
             self._motion,
             self._events,
             self._gesture,
+            self._field,
             self._left_plot,
             self._right_plot,
         ]
         return panels + ([self._virtual] if self._virtual is not None else [])
+
+
+class _Compressible(QWidget):
+    """Asks for its least height only.
+
+    Texts that wrap would otherwise make a scroll area ask for the height they like best, and scroll
+    long before anything is out of room.
+    """
+
+    def hasHeightForWidth(self) -> bool:  # noqa: N802, Qt's spelling
+        """No: the height is what there is."""
+        return False
+
+
+def _scrolling(layout: QLayout) -> QScrollArea:
+    """Room that scrolls when the screen is too small, so that what stands beside it stays."""
+    content = QWidget()
+    inner = _Compressible()
+    inner.setLayout(layout)
+    outer = QVBoxLayout(content)
+    outer.setContentsMargins(0, 0, 0, 0)
+    outer.addWidget(inner)
+    area = QScrollArea()
+    area.setObjectName("workArea")
+    area.setAccessibleName("The cell")
+    area.setFrameShape(QFrame.Shape.NoFrame)
+    area.setFocusPolicy(Qt.FocusPolicy.NoFocus)
+    area.setWidgetResizable(True)
+    area.setWidget(content)
+    return area

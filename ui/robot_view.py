@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 from PySide6.QtCore import QLineF, QPointF, QRectF, QSize, Qt
 from PySide6.QtGui import QColor, QFont, QPainter, QPaintEvent, QPen, QPolygonF
-from PySide6.QtWidgets import QSizePolicy, QWidget
+from PySide6.QtWidgets import QFrame, QSizePolicy, QWidget
 
 from gestureapp.cell.snapshot import RobotView
 from gestureapp.config import RobotSettings
@@ -15,7 +15,8 @@ from ui.words import end_of, pose_age_text
 _PATH_STEP_MM = 2.0
 _PATH_LIMIT = 2000
 """Points kept of the path; at 2 mm each longer than the field is wide."""
-_ROOM_PX = 20
+_ROOM_PX = 10
+_LABELLED_MM = 1000
 
 
 @dataclass(frozen=True, slots=True)
@@ -31,7 +32,7 @@ SIDE = Plane("Side view", 0, 2)
 TOP = Plane("Top view", 0, 1)
 
 
-class FieldView(QWidget):
+class FieldView(QFrame):
     """Both views beside each other at one scale. GUI thread only, owned by the window.
 
     Attributes:
@@ -73,12 +74,13 @@ class FieldView(QWidget):
 
     def paintEvent(self, event: QPaintEvent) -> None:
         """Draw both views."""
+        super().paintEvent(event)
         painter = QPainter(self)
         painter.setRenderHint(QPainter.RenderHint.Antialiasing)
         colours = colours_of(self.palette())
         half = self.width() / 2
         for i, plane in enumerate((SIDE, TOP)):
-            area = QRectF(i * half, 0, half, self.height()).adjusted(2, 0, -2, 0)
+            area = QRectF(i * half, 0, half, self.height()).adjusted(4, 2, -4, -4)
             _View(painter, area, plane, self._settings, colours).draw(self._robot, self.path_mm)
         painter.end()
 
@@ -144,7 +146,6 @@ class _View:
 
     def _draw_field(self) -> None:
         painter, colours = self._painter, self._colours
-        painter.fillRect(self._frame, QColor(colours.panel))
         centre = self._frame.center()
         for radius_mm, fill in (
             (self._settings.ext_radius_mm, colours.base),
@@ -155,8 +156,8 @@ class _View:
             painter.setBrush(QColor(fill))
             painter.drawEllipse(centre, radius, radius)
             corner = centre + QPointF(-0.707, 0.707) * radius
-            label = QRectF(corner.x() - 2, corner.y() - 17, 60, 16)
-            self._write(label, f"R {radius_mm:.0f}", Qt.AlignmentFlag.AlignLeft)
+            label = QRectF(corner.x() - 62, corner.y() + 1, 60, 16)
+            self._write(label, f"R {radius_mm:.0f}", Qt.AlignmentFlag.AlignRight)
         painter.setBrush(Qt.BrushStyle.NoBrush)
 
     def _draw_axes(self) -> None:
@@ -175,14 +176,19 @@ class _View:
             painter.drawLine(
                 QLineF(centre.x() - 3, centre.y() - step, centre.x() + 3, centre.y() - step)
             )
-        if self._settings.ext_radius_mm > 1000:
-            at = centre.x() + 1000 * self._scale
-            below = QRectF(at - 30, centre.y() + 3, 60, 16)
-            self._write(below, "1000", Qt.AlignmentFlag.AlignHCenter)
-        across, up = f"{names[self._plane.across]} mm", f"{names[self._plane.up]} mm"
-        right = QRectF(frame.right() - 54, centre.y() - 18, 50, 16)
-        self._write(right, across, Qt.AlignmentFlag.AlignRight)
-        self._write(QRectF(centre.x() + 5, frame.top() + 1, 60, 16), up, Qt.AlignmentFlag.AlignLeft)
+        if self._settings.ext_radius_mm > _LABELLED_MM:
+            at = centre.x() - _LABELLED_MM * self._scale
+            above = QRectF(at - 30, centre.y() - 19, 60, 16)
+            self._write(above, f"-{_LABELLED_MM}", Qt.AlignmentFlag.AlignHCenter)
+        # The corners are free of the field, whatever the tool does.
+        across, up = (
+            f"{names[self._plane.across]}+ \u2192 mm",
+            f"{names[self._plane.up]}+ \u2191 mm",
+        )
+        low = QRectF(frame.right() - 84, frame.bottom() - 18, 80, 16)
+        self._write(low, across, Qt.AlignmentFlag.AlignRight)
+        high = QRectF(frame.left() + 4, frame.top() + 2, 80, 16)
+        self._write(high, up, Qt.AlignmentFlag.AlignLeft)
 
     def _draw_plan(self, start: Pose, increment: PoseIncrement) -> None:
         begin = self._at(start.position_mm)

@@ -11,8 +11,8 @@ from ui.marks import Mark
 from ui.theme import LARGE_PX, TEXT_PX, sized
 from ui.words import state_level
 
-WORD_MIN_PX = 60
-"""Cap height is about 0.73 of this with the fonts at hand."""
+WORD_MIN_PX = 67
+"""Cap height is about 0.73 of this with the fonts at hand: 48 px at the least."""
 WORD_MAX_PX = 130
 _WITH_PERMISSION = (
     CellState.ARMED,

@@ -28,6 +28,7 @@ GESTURE_KEYS = {
     "RZ-": "Ctrl+PgDown",
 }
 """Never Esc, Pause or Space: the first two stop, the third presses whatever has the focus."""
+_KEY_SIGNS = {"Up": "\u2191", "Down": "\u2193", "Left": "\u2190", "Right": "\u2192"}
 
 
 class VirtualOperator(Protocol):
@@ -78,6 +79,8 @@ class VirtualOperatorPanel(QFrame):
         head.addWidget(self._doing, 2)
         grid = QGridLayout()
         grid.setSpacing(4)
+        for column in range(1, 7):
+            grid.setColumnStretch(column, 1)
         self._add_buttons(grid)
         layout = QVBoxLayout(self)
         layout.setContentsMargins(10, 4, 10, 6)
@@ -95,34 +98,43 @@ class VirtualOperatorPanel(QFrame):
         operator = self._operator
         last = 1 + len(GESTURES) // 2
         for name, text, key, row, column, act in (
-            ("leftStart", "Left arm: START", "S", 0, 0, operator.left_start),
-            ("leftStop", "Left arm: STOP", "A", 1, 0, operator.left_stop),
-            ("rightRest", "Right arm: rest", "D", 0, last, operator.right_rest),
-            ("silenceLeft", "Silence left", "F", 0, last + 1, operator.silence_left),
-            ("restoreSensors", "Restore sensors", "G", 1, last + 1, operator.restore_sensors),
+            ("leftStart", "left arm: START", "S", 0, 0, operator.left_start),
+            ("leftStop", "left arm: STOP", "A", 1, 0, operator.left_stop),
+            ("rightRest", "right arm: rest", "D", 0, last, operator.right_rest),
+            ("silenceLeft", "silence left", "F", 0, last + 1, operator.silence_left),
+            ("restoreSensors", "restore sensors", "G", 1, last + 1, operator.restore_sensors),
         ):
-            grid.addWidget(self._button(name, text, key, act), row, column)
+            grid.addWidget(self._button(name, "", text, key, act), row, column)
         for i, gesture in enumerate(GESTURES):
             label = gesture.label
             button = self._button(
                 f"gesture_{label}",
-                f"{label} {gesture.words}",
+                label,
+                gesture.words,
                 GESTURE_KEYS[label],
                 partial(operator.gesture, label),
             )
             grid.addWidget(button, i // 6, 1 + i % 6)
 
-    def _button(self, name: str, text: str, key: str, act: Callable[[], None]) -> QPushButton:
+    def _button(
+        self, name: str, label: str, words: str, key: str, act: Callable[[], None]
+    ) -> QPushButton:
         sequence = QKeySequence(key)
-        shown = sequence.toString(QKeySequence.SequenceFormat.NativeText)
-        button = QPushButton(f"{text}\n{shown}")
+        head = f"{label}   [{_short(key)}]".strip()
+        button = QPushButton(f"{head}\n{words}")
         button.setObjectName(name)
-        button.setAccessibleName(f"{text}, key {shown}")
+        button.setAccessibleName(f"{label} {words}, key {key}".strip())
         button.setAutoDefault(False)
         button.setFocusPolicy(Qt.FocusPolicy.TabFocus)
         sized(button, SMALL_PX - 1)
+        # The style's own margins are wider than nine columns allow on a small screen.
+        button.setMinimumWidth(button.fontMetrics().horizontalAdvance(words) + 10)
         button.clicked.connect(lambda: act())
         shortcut = QShortcut(sequence, self, context=Qt.ShortcutContext.WindowShortcut)
         shortcut.setAutoRepeat(False)
         shortcut.activated.connect(button.click)
         return button
+
+
+def _short(key: str) -> str:
+    return "+".join(_KEY_SIGNS.get(part, part) for part in key.split("+"))

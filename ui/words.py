@@ -98,7 +98,11 @@ def strip_line(snapshot: Snapshot) -> str:
     reasons = [f"{name}: {reason}" for name, reason in named if reason]
     if reasons:
         return "   |   ".join(reasons)
-    facts = (("Robot", snapshot.robot.text), ("Recording", snapshot.recording))
+    facts = (
+        ("Robot", snapshot.robot.text),
+        ("Model", snapshot.model),
+        ("Recording", snapshot.recording),
+    )
     return "   |   ".join(f"{name}: {fact}" for name, fact in facts if fact)
 
 
@@ -174,20 +178,20 @@ def decision_text(recognition: Recognition) -> str:
     """How long the decision took, from the samples to the answer."""
     first_ms = (recognition.decided_s - recognition.window_start_s) * 1000
     last_ms = (recognition.decided_s - recognition.window_end_s) * 1000
-    return f"decided {first_ms:.0f} ms after the window began, {last_ms:.0f} ms after its end"
+    return f"decided {first_ms:.0f} ms after the first sample, {last_ms:.0f} ms after the last"
 
 
 def not_recognised_text(recognition: Recognition) -> str:
     """Why nothing was recognised, with the two best."""
-    best = ", ".join(f"{c.label} {c.confidence:.2f}" for c in recognition.best)
+    best = ", ".join(f"{c.label}\u00a0{c.confidence:.2f}" for c in recognition.best)
     reason = recognition.reason or "no clear gesture"
     return f"{reason} ({best})" if best else reason
 
 
-def event_text(event: EventLine) -> str:
-    """A line of the story with its wall time to the millisecond."""
+def time_text(event: EventLine) -> str:
+    """The wall time of an event, to the millisecond."""
     when = datetime.fromtimestamp(event.wall_s)
-    return f"{when:%H:%M:%S}.{when.microsecond // 1000:03d}  {event.text}"
+    return f"{when:%H:%M:%S}.{when.microsecond // 1000:03d}"
 
 
 def _age(age_s: float) -> str:
