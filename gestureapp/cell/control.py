@@ -355,7 +355,7 @@ class Control:
             t_s=self._now_s,
             state=s.state,
             sentence=sentence(s, self._rules.drive_mode),
-            blockers=s.blockers,
+            blockers=s.blockers if s.is_at_rest else (),
             can_arm=s.can_arm,
             is_stop_unconfirmed=s.is_stop_unconfirmed,
             left=self._trackers[Side.LEFT].health(self._now_s),

@@ -90,6 +90,11 @@ class MachineState:
     is_stop_unconfirmed: bool = False
 
     @property
+    def is_at_rest(self) -> bool:
+        """Nothing may move, and arming is what comes next."""
+        return self.state in (CellState.NOT_READY, CellState.READY, CellState.STOPPED)
+
+    @property
     def can_arm(self) -> bool:
         """Arming would be taken now."""
         return (
@@ -102,7 +107,6 @@ class MachineState:
 Step = tuple[MachineState, tuple[Effect, ...]]
 
 _PERMITTED = (CellState.ARMED, CellState.ACTIVATED, CellState.MOVING)
-_AT_REST = (CellState.NOT_READY, CellState.READY, CellState.STOPPED)
 
 
 def step(s: MachineState, event: Event, rules: Rules) -> Step:
@@ -206,7 +210,7 @@ def _pressed(s: MachineState, event: ArmPressed | DisarmPressed | StopPressed) -
 
 def _permission(s: MachineState, event: ArmTaken | ArmDenied | PermissionLost) -> Step:
     match event:
-        case ArmTaken() if s.is_arming and s.state in _AT_REST:
+        case ArmTaken() if s.is_arming and s.is_at_rest:
             s = replace(s, is_arming=False, stop_reason=None, is_left_rested=True)
             return _enter(s, CellState.ARMED, event.t_s, ""), (Say("armed"),)
         case ArmTaken():

@@ -91,6 +91,7 @@ class GateView:
         is_armed: The operator's permission.
         latch: The stop that has not been left yet, or None.
         is_stopping: A stop is under way.
+        is_releasing: A hold is being released.
         is_moving: A command is open.
         last_activation_id: Of the newest command let through.
         status: Last RSTATS, read at ``status_s``.
@@ -104,6 +105,7 @@ class GateView:
     is_armed: bool
     latch: StopReason | None
     is_stopping: bool
+    is_releasing: bool
     is_moving: bool
     last_activation_id: int
     status: RobotStatus | None
@@ -195,7 +197,7 @@ def arm_blocker(
     """
     if not view.is_link_open:
         return Refusal("no_link", "the robot does not answer")
-    if view.is_stopping or view.is_moving:
+    if view.is_stopping or view.is_releasing or view.is_moving:
         return Refusal("busy", "a move or a stop is under way")
     for t_s, text in ((view.status_s, "the robot's state"), (view.pose_s, "the robot's position")):
         age_s = now_s - t_s
@@ -236,7 +238,7 @@ def _permission(proposal: Proposal, view: GateView) -> Refusal | None:
         return Refusal("latched", f"stopped ({view.latch.value}): arm again first")
     if not view.is_armed:
         return Refusal("not_armed", "the cell is not armed")
-    if view.is_stopping or view.is_moving:
+    if view.is_stopping or view.is_releasing or view.is_moving:
         return Refusal("busy", "a move or a stop is under way")
     if proposal.activation_id <= view.last_activation_id:
         asked, limit = f"activation {proposal.activation_id}", f"{view.last_activation_id} was used"

@@ -123,6 +123,9 @@ class Guardian:
             if isinstance(message, m.Hello) and message.token == self._start.token:
                 peer.role = message.role
                 self._was_greeted = True
+                if peer.role is m.Role.CONTROL:
+                    self._supervisor.greeted(now_s)
+                    self._flush()
             else:
                 log.warning("a connection without the token was closed")
                 self._close_peer(peer)

@@ -65,6 +65,7 @@ class Supervisor:
         self._beat: m.Beat | None = None
         self._start_seen_s = float("-inf")
         self._read = Readings()
+        self._link_text = "not connected yet"
         self._last_activation_id = 0
         self._sent_s = 0.0
         self._outputs: list[Output] = []
@@ -119,11 +120,16 @@ class Supervisor:
     def robot_ended(self, reason: str, now_s: float) -> None:
         """The socket was closed or could not be opened."""
         events = self._exchange.end(reason)
-        if not events:
-            self._tell(m.LinkReport(False, reason))
+        if not events and reason != self._link_text:
+            self._tell_link(False, reason)
         self._handle(events, now_s)
 
     # Inputs from the application's side.
+
+    def greeted(self, now_s: float) -> None:
+        """The application has just connected: tell it what is known."""
+        self._tell(m.LinkReport(self._exchange.is_open, self._link_text))
+        self._report_status(now_s)
 
     def message(self, message: m.Message, now_s: float) -> None:
         """A message from the application."""
@@ -230,7 +236,8 @@ class Supervisor:
         return GateView(
             is_armed=self.is_armed,
             latch=self.latch,
-            is_stopping=self._stop.is_active or self._release.is_active,
+            is_stopping=self._stop.is_active,
+            is_releasing=self._release.is_active,
             is_moving=self._motion is not None or self._command is not None,
             last_activation_id=self._last_activation_id,
             status=self._read.status,
@@ -293,6 +300,7 @@ class Supervisor:
     def _send_if_allowed(self, request: Request, now_s: float) -> None:
         allowed = permit(request, self._view())
         if isinstance(allowed, Refusal):
+            self._release.cancel()
             self._tell(m.Notice(f"{request} was not sent: {allowed.text}"))
             return
         self._send(allowed, now_s)
@@ -308,7 +316,7 @@ class Supervisor:
         for event in events:
             match event:
                 case Opened():
-                    self._tell(m.LinkReport(True, event.banner))
+                    self._tell_link(True, event.banner)
                     self._polling.restart()
                 case Answered():
                     self._answered(event, now_s)
@@ -384,7 +392,7 @@ class Supervisor:
 
     def _link_broken(self, event: LinkBroken, now_s: float) -> None:
         self._outputs.append(DropRobot(event.reason))
-        self._tell(m.LinkReport(False, event.reason))
+        self._tell_link(False, event.reason)
         self._read = Readings()
         self._stop.link_broken()
         if self.is_armed or self._motion is not None or self._release.is_active:
@@ -422,6 +430,10 @@ class Supervisor:
         is_left_stop = self._beat is not None and self._beat.is_left_stop
         if self.is_armed and is_free and is_left_stop and self._read.is_held_by_command:
             self._release.begin()
+
+    def _tell_link(self, is_open: bool, text: str) -> None:
+        self._link_text = text
+        self._tell(m.LinkReport(is_open, text))
 
     def _tell(self, message: m.FromGuardian) -> None:
         self._outputs.append(ToApp(message))
