@@ -1,0 +1,158 @@
+import json
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from gestureapp.errors import ModelInvalid
+from gestureapp.recognition.model_file import Model, TrainingRecord, load_model, save_model
+from gestureapp.recognition.network import Network
+
+RECORD = TrainingRecord("paper", "by hand", 100_000, 0.25, 3, 360, 0.001, 7.5, "somewhere")
+
+
+def model_of():
+    rng = np.random.default_rng(0)
+    network = Network(
+        rng.normal(0, 1, (4, 9)), rng.normal(0, 1, 4), rng.normal(0, 1, (2, 4)), np.zeros(2)
+    )
+    return Model(
+        kind="paper",
+        labels=("X+", "grüßen"),
+        network=network,
+        person="p1",
+        training=RECORD,
+        takes_fingerprint="sha256:00",
+        app_version="0.1.0",
+        created="2026-01-01T00:00:00+00:00",
+    )
+
+
+@pytest.fixture
+def path(tmp_path):
+    save_model(tmp_path / "model.json", model_of())
+    return tmp_path / "model.json"
+
+
+def rewrite(path, *keys, to):
+    content = json.loads(path.read_text(encoding="utf-8"))
+    inner = content
+    for key in keys[:-1]:
+        inner = inner[key]
+    inner[keys[-1]] = to
+    path.write_text(json.dumps(content), encoding="utf-8")
+
+
+def test_a_model_written_and_read_is_the_same_to_the_last_bit(path):
+    back, made = load_model(path), model_of()
+
+    for name in ("hidden", "hidden_bias", "output", "output_bias"):
+        assert np.array_equal(getattr(back.network, name), getattr(made.network, name))
+    assert replace(back, network=made.network) == made
+
+
+def test_a_person_can_read_the_file(path):
+    content = json.loads(path.read_text(encoding="utf-8"))
+
+    assert content["shape"] == [9, 4, 2]
+    assert content["training"]["learning_rate"] == 0.25
+    assert "grüßen" in path.read_text(encoding="utf-8")
+
+
+@pytest.mark.parametrize(
+    ("keys", "to", "words"),
+    [
+        (["format"], "other", "is not a model of this application"),
+        (["schema"], 2, r"from a newer version \(schema 2"),
+        (["schema"], "1", "no usable schema version"),
+        (["kind"], "onset", "unknown kind 'onset'"),
+        (["labels"], [], "'labels' is missing"),
+        (["labels"], ["X+", 3], "'labels' must hold texts"),
+        (["labels"], ["X+", "X+"], "names a gesture twice"),
+        (["labels"], ["X+", "X-", "Y+"], "2 outputs for 3 labels"),
+        (["shape"], [9, 10, 12], "'shape' says"),
+        (["weights"], None, "'weights' is missing"),
+        (["weights", "hidden"], [[1.0] * 9] * 3, "do not fit each other"),
+        (
+            ["weights", "hidden"],
+            [[1.0] * 9, [1.0]],
+            "'hidden'|inhomogeneous",
+        ),
+        (["weights", "hidden_bias"], [1.0, 2.0, 3.0, "x"], "'hidden_bias' must be numbers"),
+        (["weights", "hidden_bias"], [1.0, 2.0, 3.0, 10**400], "'hidden_bias'"),
+        (["training", "loss"], None, "'loss' must be a number"),
+        (["training", "cycles"], 10**400, "'cycles' is too large"),
+        (["person"], 5, "'person' must be a text"),
+    ],
+)
+def test_damage_is_named_in_one_line(path, keys, to, words):
+    rewrite(path, *keys, to=to)
+
+    with pytest.raises(ModelInvalid, match=words) as caught:
+        load_model(path)
+
+    assert str(path) in str(caught.value)
+    assert "\n" not in str(caught.value)
+
+
+@pytest.mark.parametrize("word", ["NaN", "Infinity", "-Infinity", "1e999"])
+def test_weights_that_are_not_finite_are_refused(path, word):
+    first = str(model_of().network.hidden[0, 0])
+    path.write_text(path.read_text(encoding="utf-8").replace(first, word, 1), encoding="utf-8")
+
+    with pytest.raises(ModelInvalid):
+        load_model(path)
+
+
+def test_a_network_for_other_inputs_is_refused(tmp_path):
+    network = Network(np.zeros((4, 6)), np.zeros(4), np.zeros((2, 4)), np.zeros(2))
+    save_model(tmp_path / "m.json", replace(model_of(), network=network))
+
+    with pytest.raises(ModelInvalid, match="6 inputs, expected 9"):
+        load_model(tmp_path / "m.json")
+
+
+@pytest.mark.parametrize(
+    "content", [b"", b"null", b"[]", b"{}", b"\xff\xfe", b"[" * 100_000, b"\x00" * 50]
+)
+def test_a_file_of_another_kind_is_refused(tmp_path, content):
+    (tmp_path / "m.json").write_bytes(content)
+
+    with pytest.raises(ModelInvalid) as caught:
+        load_model(tmp_path / "m.json")
+
+    assert "\n" not in str(caught.value)
+
+
+def test_a_missing_file_and_a_folder_are_refused(tmp_path):
+    with pytest.raises(ModelInvalid, match="cannot be read"):
+        load_model(tmp_path / "none.json")
+    with pytest.raises(ModelInvalid, match="cannot be read"):
+        load_model(tmp_path)
+
+
+def test_a_huge_file_is_refused_before_it_is_read(tmp_path):
+    with (tmp_path / "m.json").open("wb") as file:
+        file.truncate(20_000_000)
+
+    with pytest.raises(ModelInvalid, match="far too large"):
+        load_model(tmp_path / "m.json")
+
+
+@pytest.fixture(scope="module")
+def whole_file(tmp_path_factory):
+    path = tmp_path_factory.mktemp("model") / "whole.json"
+    save_model(path, model_of())
+    return path.read_bytes()
+
+
+@settings(max_examples=60, deadline=None)
+@given(share=st.floats(0.0, 0.999))
+def test_a_file_cut_off_anywhere_is_refused(whole_file, tmp_path_factory, share):
+    path = tmp_path_factory.mktemp("cut") / "cut.json"
+    path.write_bytes(whole_file[: int(share * (len(whole_file) - 2))])
+
+    with pytest.raises(ModelInvalid):
+        load_model(path)
