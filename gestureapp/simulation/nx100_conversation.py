@@ -59,7 +59,8 @@ class Conversation:
         self._chunks: deque[_Chunk] = deque()
         self._budget = UNLIMITED
         self._unsent_ok = b""
-        self._ok_s = -math.inf
+        self._n_heard = 0
+        self._ok_at_n = 0
         self._close_s = math.inf
         self._heard_s = now_s
         self._noise = random.Random(0)
@@ -71,6 +72,7 @@ class Conversation:
             What was read, for the log.
         """
         self._heard_s = now_s
+        self._n_heard += 1
         events: list[LineEvent] = []
         if self.is_closing:
             return events
@@ -145,7 +147,7 @@ class Conversation:
             self._unsent_ok += ok
         else:
             self._say(ok, now_s)
-            self._ok_s = now_s
+            self._ok_at_n = self._n_heard
 
     def _say_ok(self, now_s: float) -> None:
         if self._unsent_ok:
@@ -158,7 +160,7 @@ class Conversation:
                 self._execute(request, now_s)
             return
         ok, self._unsent_ok = self._unsent_ok, b""
-        at_s = now_s + self._answer_delay_s(now_s)
+        at_s = now_s + self._answer_delay_s()
         if fault.kind is FaultKind.ERROR:
             if fault.is_executed:
                 self._execute(request, now_s)
@@ -170,9 +172,10 @@ class Conversation:
             self._say(ok + answer.wire, at_s + answer.delay_s)
         self._count()
 
-    def _answer_delay_s(self, now_s: float) -> float:
+    def _answer_delay_s(self) -> float:
+        """Give the delay; longer in SEPARATE mode if nobody had to wait for the OK to come here."""
         options = self._options
-        if options.segments is Segments.SEPARATE and self._ok_s == now_s:
+        if options.segments is Segments.SEPARATE and self._ok_at_n == self._n_heard:
             return max(options.separation_s, options.answer_delay_s)
         return options.answer_delay_s
 
@@ -199,19 +202,21 @@ class Conversation:
         if fault.kind is FaultKind.GARBAGE:
             data = self._noise.randbytes(self._noise.randint(1, 64))
         at_s = now_s + (fault.delay_s if fault.kind is FaultKind.SLOW else 0.0)
-        if self._chunks:
-            at_s = max(at_s, self._chunks[-1].at_s)
         options = self._options
         if fault.kind is FaultKind.PIECES:
-            self._spread(_pieces(data, fault.piece_bytes), at_s, fault.gap_s)
+            self._spread(_pieces(data, fault.piece_bytes), at_s, fault.gap_s, fault.gap_s)
         elif options.segments is Segments.BYTEWISE:
-            self._spread(_pieces(data, 1), at_s, options.byte_gap_s)
+            self._spread(_pieces(data, 1), at_s, options.byte_gap_s, options.byte_gap_s)
         elif options.segments is Segments.LATE_LF and data.endswith(b"\r\n"):
             self._spread([data[:-1], data[-1:]], at_s, options.late_lf_s)
         else:
-            self._spread([data], at_s, 0.0)
+            self._spread([data], at_s)
 
-    def _spread(self, pieces: list[bytes], at_s: float, gap_s: float) -> None:
+    def _spread(
+        self, pieces: list[bytes], at_s: float, gap_s: float = 0.0, lead_s: float = 0.0
+    ) -> None:
+        if self._chunks:
+            at_s = max(at_s, self._chunks[-1].at_s + lead_s)
         for i, piece in enumerate(pieces):
             self._chunks.append(_Chunk(at_s + i * gap_s, piece))
 
