@@ -1,7 +1,7 @@
 """The queue before the disk is bounded, keeps its order, and gives up plot data first."""
 
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from gestureapp.cell.records import Record, Topic
@@ -24,6 +24,7 @@ def _record(is_plot, number):
     return left(number, float(number)) if is_plot else decision(number, float(number))
 
 
+@settings(deadline=None)
 @given(st.lists(st.booleans(), max_size=60), st.integers(1, 7))
 def test_records_leave_in_the_order_they_came(kinds, n_max):
     backlog = Backlog(plot_mark=60, limit=60)
@@ -36,6 +37,7 @@ def test_records_leave_in_the_order_they_came(kinds, n_max):
     assert out == list(range(len(kinds)))
 
 
+@settings(deadline=None)
 @given(st.lists(st.booleans(), max_size=40), st.integers(0, 20))
 def test_restored_records_stand_in_front_again(kinds, n_taken):
     backlog = Backlog(plot_mark=60, limit=60)
@@ -47,6 +49,7 @@ def test_restored_records_stand_in_front_again(kinds, n_taken):
     assert _numbers(backlog.take(100)) == [*range(len(kinds)), 99]
 
 
+@settings(deadline=None)
 @given(st.lists(st.booleans(), max_size=60))
 def test_nothing_vanishes_uncounted_and_no_decision_goes_before_plot_data(kinds):
     backlog = Backlog(plot_mark=5, limit=8)

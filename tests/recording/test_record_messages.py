@@ -7,7 +7,7 @@ from types import MappingProxyType
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from gestureapp.cell.records import Record, Topic
@@ -31,12 +31,14 @@ def test_every_topic_has_a_schema_with_its_time():
         assert set(SCHEMAS[topic]["required"]) <= set(SCHEMAS[topic]["properties"])
 
 
+@settings(deadline=None)
 @given(_CLOSED, _TIMES, _FIELDS)
 def test_a_record_comes_back_exactly_as_it_was_put(topic, t_s, fields):
     record = Record(topic, t_s, fields)
     assert decode_record(topic, encode_record(record)) == record
 
 
+@settings(deadline=None)
 @given(st.sampled_from(sorted(OPEN_TOPICS, key=str)), st.floats(allow_nan=False))
 def test_an_input_keeps_infinity_for_the_replay(topic, age_s):
     record = Record(topic, 1.5, {"type": "health", "nested": [{"age_s": age_s}], "t_s": age_s})
@@ -86,6 +88,7 @@ def test_fields_that_contain_themselves_are_refused_not_raised():
     assert encode_record(Record(Topic.INPUT, 1.0, fields)) is None
 
 
+@settings(deadline=None)
 @given(st.binary())
 def test_rubbish_is_no_record(data):
     back = decode_record(Topic.EVENT, data)
