@@ -3,6 +3,7 @@
 import contextlib
 import logging
 import math
+import os
 import selectors
 import socket
 import struct
@@ -10,7 +11,7 @@ import threading
 from dataclasses import dataclass, field
 
 from gestureapp.clock import Clock, monotonic
-from gestureapp.errors import RobotError
+from gestureapp.errors import RobotError, SensorError
 from gestureapp.robot.values import Pose
 from gestureapp.simulation.control_port import ControlPort
 from gestureapp.simulation.controller import Controller
@@ -29,7 +30,8 @@ log = logging.getLogger(__name__)
 IDLE_WAIT_S = 1.0
 """Longest sleep of the loop; only bounds how long a lost wake-up could matter."""
 UNSENT_MAX_BYTES = 1_000_000
-_RESET_ON_CLOSE = struct.pack("ii", 1, 0)
+_RESET_ON_CLOSE = struct.pack("hh" if os.name == "nt" else "ii", 1, 0)
+"""SO_LINGER of no time: closing sends RST."""
 
 
 @dataclass(slots=True, eq=False)
@@ -96,19 +98,14 @@ class Nx100Emulator:
         """Listen.
 
         Raises:
-            RobotError: the address cannot be served.
-            SensorError: the control port cannot be served.
+            RobotError: the address or the control port cannot be served.
         """
         self._waker.setblocking(False)
         self._wakened.setblocking(False)
         self._selector.register(self._wakened, selectors.EVENT_READ, self._calm)
         try:
             self._listen()
-            if self.options.control_port is not None:
-                host, port = self.options.host, self.options.control_port
-                self._control = ControlPort(
-                    "NX100 control", host, port, self._selector, lambda line: obey(self, line)
-                )
+            self._open_control()
         except Exception:
             self._close()
             raise
@@ -247,9 +244,22 @@ class Nx100Emulator:
         self._listener, self._port = listener, listener.getsockname()[1]
         self._selector.register(listener, selectors.EVENT_READ, self._accept)
 
+    def _open_control(self) -> None:
+        host, port = self.options.host, self.options.control_port
+        if port is None:
+            return
+        try:
+            self._control = ControlPort(
+                "NX100 control", host, port, self._selector, lambda line: obey(self, line)
+            )
+        except SensorError as error:  # the port is shared with the sensors' emulator, its name not
+            text = f"cannot serve the control port {host}:{port}; name another, or 0"
+            raise RobotError(text) from error
+
     def _unlisten(self) -> None:
         if self._listener is not None:
-            self._selector.unregister(self._listener)
+            with contextlib.suppress(KeyError):  # it waits for its turn
+                self._selector.unregister(self._listener)
             self._listener.close()
             self._listener = None
 
@@ -261,7 +271,8 @@ class Nx100Emulator:
         if client is None:
             return
         self._count += 1
-        connection = _Connection(self._count, client, self._conversation())
+        talk = Conversation(self.options, self._execute, self._clock())
+        connection = _Connection(self._count, client, talk)
         self._note(What.OPEN, connection=self._count)
         self._connections.append(connection)
         if is_taken and self.options.second is Second.REFUSE:
@@ -270,9 +281,6 @@ class Nx100Emulator:
         self._selector.register(client, selectors.EVENT_READ, lambda: self._hear(connection))
         if self.options.second is Second.IGNORE:
             self._selector.unregister(self._listener)
-
-    def _conversation(self) -> Conversation:
-        return Conversation(self.options, self._execute, self._clock())
 
     def _execute(self, request: Request, now_s: float) -> Answer:
         return execute(request, self.controller, now_s)

@@ -353,8 +353,10 @@ def test_strict_mode_refuses_odd_sizes_and_spellings():
 
 
 WORDS = st.sampled_from(
-    [KEEP, header("RSTATS"), header("IMOV", UP_5), UP_5.encode() + b"\r", b"\r", b"\n", b"\r\n"]
-    + [header("RPOSC", "1,0"), b"1,0\r", b"HOSTCTRL_REQUEST HOLD 2\r", b"1\r\n", b"CONNECT "]
+    [
+        *(KEEP, header("RSTATS"), header("IMOV", UP_5), UP_5.encode() + b"\r", b"\r", b"\n"),
+        *(header("RPOSC", "1,0"), b"1,0\r", b"HOSTCTRL_REQUEST HOLD 2\r", b"1\r\n", b"CONNECT "),
+    ]
 )
 STREAMS = st.lists(WORDS | st.binary(max_size=40), max_size=12).map(b"".join)
 

@@ -222,6 +222,16 @@ def test_refused_connections_meet_nobody_until_the_fault_is_over(emulator, link)
     link(emulator)
 
 
+def test_refused_connections_and_ignored_ones_go_together(link):
+    with Nx100Emulator(Nx100Options(second=Second.IGNORE)) as running:
+        link(running)
+        running.fault(Fault(FaultKind.REFUSE))
+        with pytest.raises(ConnectionRefusedError):
+            link(running, b"")
+        running.fault(Fault(FaultKind.DROP))
+        link(running)
+
+
 def test_silent_controller_hears_but_says_nothing(emulator, link):
     client = link(emulator)
     emulator.fault(Fault(FaultKind.SILENT))
@@ -267,6 +277,11 @@ def test_switches_show_in_the_status_bits(emulator, link):
 def test_port_in_use_is_an_error_with_a_remedy(emulator):
     with pytest.raises(RobotError, match="name another port"):
         Nx100Emulator(Nx100Options(port=emulator.port)).start()
+
+
+def test_control_port_in_use_is_an_error_with_a_remedy(emulator):
+    with pytest.raises(RobotError, match="control port"):
+        Nx100Emulator(Nx100Options(control_port=emulator.port)).start()
 
 
 def test_stop_is_idempotent_and_closes_every_connection(link):
