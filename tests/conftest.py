@@ -1,0 +1,33 @@
+"""What every test gets: nothing left running, and no warning nobody announced."""
+
+import logging
+import threading
+from collections.abc import Iterator
+
+import pytest
+
+JOIN_LIMIT_S = 3.0
+
+
+@pytest.fixture(autouse=True)
+def no_thread_left() -> Iterator[None]:
+    """A test that leaves a thread behind fails."""
+    before = set(threading.enumerate())
+    yield
+    left = [thread for thread in threading.enumerate() if thread not in before]
+    for thread in left:
+        thread.join(JOIN_LIMIT_S)
+    names = [thread.name for thread in left if thread.is_alive()]
+    assert not names, f"threads left running: {names}"
+
+
+@pytest.fixture(autouse=True)
+def no_error_unannounced(
+    request: pytest.FixtureRequest, caplog: pytest.LogCaptureFixture
+) -> Iterator[None]:
+    """A test that logs an error it did not announce with the ``logs_errors`` mark fails."""
+    yield
+    if request.node.get_closest_marker("logs_errors"):
+        return
+    errors = [r.getMessage() for r in caplog.get_records("call") if r.levelno >= logging.ERROR]
+    assert not errors, f"unannounced errors in the log: {errors}"
