@@ -42,8 +42,8 @@ GESTURES: tuple[Gesture, ...] = (
     Gesture("Z-", "push down", Kind.MOVEMENT, 2, -1),
     Gesture("RX+", "roll right and hold", Kind.POSTURE, 0, +1),
     Gesture("RX-", "roll left and hold", Kind.POSTURE, 0, -1),
-    Gesture("RY+", "tip forward and hold", Kind.POSTURE, 1, +1),
-    Gesture("RY-", "tip back and hold", Kind.POSTURE, 1, -1),
+    Gesture("RY+", "tip up and hold", Kind.POSTURE, 1, +1),
+    Gesture("RY-", "tip down and hold", Kind.POSTURE, 1, -1),
     Gesture("RZ+", "turn left and hold", Kind.POSTURE, 2, +1),
     Gesture("RZ-", "turn right and hold", Kind.POSTURE, 2, -1),
 )
