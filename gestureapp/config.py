@@ -25,7 +25,8 @@ class SensorSettings:
 
     Attributes:
         port: Anything ``serial.serial_for_url`` opens: a device, ``socket://HOST:PORT``,
-        ``loop://``. protocol: Name of a decoder.
+            ``loop://``.
+        protocol: Name of a decoder.
         offset: Reading at zero g per axis, in g of the nominal scale.
         gain: Factor per axis after the offset; 1 is the nominal sensitivity.
     """
@@ -84,8 +85,9 @@ class RobotSettings:
         margin_mm: How far before the boundary an increment ends.
         speed_mm_s: Speed of a translation; at most 250.
         speed_deg_s: Speed of a rotation; at most 30.
-        rx_range_deg: Lowest and highest Rx; may pass 180, as a tool that points down reads Rx =
-        180. ry_range_deg: Lowest and highest Ry.
+        rx_range_deg: Lowest and highest Rx; may pass 180, as a tool that points down reads
+            Rx = 180.
+        ry_range_deg: Lowest and highest Ry.
         rz_range_deg: Lowest and highest Rz.
         margin_deg: How far before the end of a range a rotation ends.
         frame: Coordinate frame of the increment: 0 base, 1 robot, 2 to 25 user 1 to 24.
