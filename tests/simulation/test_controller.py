@@ -132,6 +132,17 @@ def test_released_hold_goes_on_with_the_rest_where_the_controller_does_that(rele
     assert model.pose(20.0).z_mm == pytest.approx(400.0)
 
 
+def test_rest_waits_until_the_last_hold_is_released():
+    model = controller(resumes_after_hold=True)
+    model.move(UP_100, 0.0)
+    model.command_hold(True, 0.5)
+    model.set_hold(Hold.EXTERNAL, True, 1.0)
+    model.command_hold(False, 2.0)
+    assert model.next_event_s == math.inf
+    model.set_hold(Hold.EXTERNAL, False, 3.0)
+    assert end_of(model).pose.z_mm == pytest.approx(400.0)
+
+
 def test_move_held_before_it_began_is_whole_when_it_goes_on():
     model = controller(resumes_after_hold=True)
     model.move(UP_100, 0.0)
