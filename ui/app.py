@@ -8,7 +8,15 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from types import FrameType, TracebackType
 
-from PySide6.QtCore import QMessageLogContext, Qt, QTimer, QtMsgType, qInstallMessageHandler
+from PySide6.QtCore import (
+    QCoreApplication,
+    QEvent,
+    QMessageLogContext,
+    Qt,
+    QTimer,
+    QtMsgType,
+    qInstallMessageHandler,
+)
 from PySide6.QtGui import QGuiApplication
 from PySide6.QtWidgets import QApplication
 
@@ -52,11 +60,14 @@ def run_window(
     Theme(app)
     try:
         window = MainWindow(cell, virtual)
-        with _hooks(cell, window):
-            _fit(window)
-            if exit_after_s is not None:
-                QTimer.singleShot(round(exit_after_s * 1000), window, window.close)
-            return app.exec()
+        try:
+            with _hooks(cell, window):
+                _fit(window)
+                if exit_after_s is not None:
+                    QTimer.singleShot(round(exit_after_s * 1000), window, window.close)
+                return app.exec()
+        finally:
+            _delete(window)
     finally:
         cell.shutdown()
 
@@ -103,6 +114,12 @@ def _application() -> QApplication:
     app.setApplicationName("gestureapp")
     app.setApplicationDisplayName("gestureapp")
     return app
+
+
+def _delete(window: MainWindow) -> None:
+    # Left to Python's garbage collector, the parts of the plots go in any order, and Qt crashes.
+    window.deleteLater()
+    QCoreApplication.sendPostedEvents(window, QEvent.Type.DeferredDelete.value)
 
 
 def _fit(window: MainWindow) -> None:

@@ -4,6 +4,7 @@ import os
 from collections.abc import Callable, Iterator
 from dataclasses import replace
 from math import pi, sin
+from types import SimpleNamespace
 
 import pytest
 
@@ -96,9 +97,7 @@ def blocked(n: int = 4) -> Snapshot:
             "Hold the left forearm level for a moment.",
         ),
         Blocker("servo", "Servo power is off", "Press Servo on, or switch it on at the pendant."),
-        Blocker(
-            "remote", "The robot is not in remote mode", "Turn the pendant's key to REMOTE."
-        ),
+        Blocker("remote", "The robot is not in remote mode", "Turn the pendant's key to REMOTE."),
     )
     blockers = tuple(replace(some[i % 4], id=f"{some[i % 4].id}_{i}") for i in range(n))
     left = replace(
@@ -251,6 +250,21 @@ class SteppingClock:
     def __call__(self) -> float:
         self.now_s += self.step_s
         return self.now_s
+
+
+@pytest.fixture
+def scenes() -> SimpleNamespace:
+    """The moments that tests set, by name: test files cannot import this one."""
+    return SimpleNamespace(
+        ready=ready,
+        blocked=blocked,
+        moving=moving,
+        recognised=recognised,
+        not_recognised=not_recognised,
+        events=events,
+        healthy=healthy,
+        now_s=NOW_S,
+    )
 
 
 @pytest.fixture

@@ -1,0 +1,187 @@
+"""What is drawn: plots, the field of operation, bars, the arrow."""
+
+from dataclasses import replace
+from math import sin
+
+import numpy as np
+import pytest
+
+from gestureapp.robot.values import Direction, Pose, PoseIncrement
+from gestureapp.sensing.store import SampleStore
+from gestureapp.sensing.values import Sample
+from ui.arm_plot import RANGE_G, SPAN_S, ArmPlot
+from ui.direction_view import DirectionView
+from ui.output_bars import OutputBars
+from ui.robot_view import FieldView
+from ui.theme import colours_of
+
+
+def filled(n: int, rate_hz: float = 100.0) -> SampleStore:
+    store = SampleStore()
+    for i in range(n):
+        store.append(Sample(i / rate_hz, i, (sin(i / 9), 0.2, 1.0)))
+    return store
+
+
+@pytest.fixture
+def plot(qtbot) -> ArmPlot:
+    plot = ArmPlot("leftPlot", "Left arm")
+    qtbot.addWidget(plot)
+    plot.resize(380, 200)
+    plot.show()
+    return plot
+
+
+def test_a_plot_shows_the_last_eight_seconds_up_to_now(plot):
+    plot.show_samples(filled(2000), 20.0, True)
+    times, values = plot.curve(0)
+    assert times.min() >= -SPAN_S - 0.1
+    assert times.max() == pytest.approx(0.0, abs=0.1)
+    assert values.max() == pytest.approx(1.0, abs=0.01)
+    assert plot.note == ""
+
+
+def test_a_plot_has_about_one_point_per_pixel(plot):
+    plot.show_samples(filled(6000, rate_hz=750.0), 8.0, True)
+    times, _ = plot.curve(0)
+    assert 100 < len(times) <= 384
+
+
+def test_a_stream_that_is_gone_says_no_data_and_scrolls_away(plot):
+    store = filled(1000)
+    plot.show_samples(store, 10.0, True)
+    plot.show_samples(store, 14.0, False)
+    times, _ = plot.curve(2)
+    assert times.max() == pytest.approx(-4.0, abs=0.1)
+    assert plot.note == "no data"
+    plot.show_samples(store, 30.0, False)
+    assert len(plot.curve(2)[0]) == 0
+
+
+def test_a_plot_before_the_first_sample_says_no_data(plot):
+    plot.show_samples(SampleStore(), 5.0, False)
+    assert plot.note == "no data"
+    assert len(plot.curve(0)[0]) == 0
+
+
+def test_the_range_of_a_plot_never_moves(plot):
+    store = filled(100)
+    store.append(Sample(1.0, 100, (40.0, -40.0, 40.0)))
+    plot.show_samples(store, 1.0, True)
+    (left, right), (low, high) = plot._plot.getViewBox().viewRange()
+    assert (left, right) == (-SPAN_S, 0)
+    assert (low, high) == (-RANGE_G, RANGE_G)
+
+
+def test_the_used_window_is_marked_where_it_was_and_wide_enough_to_see(plot):
+    plot.mark_window((9.48, 9.5), 10.0)
+    assert plot._mark.isVisible()
+    start, end = plot._mark.getRegion()
+    assert start < -0.52 < -0.5 < end
+    assert end - start == pytest.approx(4 * SPAN_S / plot._plot.getViewBox().width(), rel=0.05)
+    plot.mark_window((9.48, 9.5), 20.0)
+    assert not plot._mark.isVisible()
+    plot.mark_window(None, 20.0)
+    assert not plot._mark.isVisible()
+
+
+@pytest.fixture
+def field(qtbot, cell) -> FieldView:
+    field = FieldView(cell.settings.robot)
+    qtbot.addWidget(field)
+    field.resize(480, 270)
+    field.show()
+    return field
+
+
+def test_the_path_grows_with_the_move_and_begins_anew_with_the_next(field, scenes):
+    for share in np.linspace(0, 1, 50):
+        field.show_robot(scenes.moving(share=float(share)).robot)
+    assert len(field.path_mm) == 50
+    assert field.path_mm[0] == (600.0, 100.0, 300.0)
+    assert field.path_mm[-1][0] == pytest.approx(1135.3)
+    field.show_robot(scenes.moving("RX+", 0.0).robot)
+    assert len(field.path_mm) == 1
+
+
+def test_a_robot_that_stands_adds_nothing_to_the_path(field, scenes):
+    for _ in range(20):
+        field.show_robot(scenes.ready().robot)
+    assert len(field.path_mm) == 1
+
+
+def test_the_path_is_bounded(field, scenes):
+    robot = scenes.ready().robot
+    for i in range(2500):
+        pose = Pose(600.0 + 100 * (i % 2), 0.0, 0.0, 180.0, 0.0, 0.0)
+        field.show_robot(replace(robot, pose=pose))
+    assert len(field.path_mm) == 2000
+
+
+@pytest.mark.parametrize(
+    "pose",
+    [None, Pose(0, 0, 0, 0, 0, 0), Pose(1e6, -1e6, 1e6, 180, 0, 0)],
+    ids=["none", "origin", "far outside"],
+)
+def test_the_field_can_be_drawn_wherever_the_robot_claims_to_be(field, scenes, pose):
+    robot = replace(scenes.ready().robot, pose=pose, start=pose, increment=PoseIncrement(dx_mm=9.0))
+    field.show_robot(robot)
+    image = field.grab().toImage()
+    assert image.pixelColor(90, 90).name() == colours_of(field.palette()).base
+
+
+def test_both_views_have_the_same_scale(field, scenes):
+    """The outer circle is as far from each view's centre to the right as up."""
+    field.show_robot(replace(scenes.ready().robot, pose=None))
+    image = field.grab().toImage()
+    base = colours_of(field.palette()).base
+
+    def reach(x: int, y: int, dx: int, dy: int) -> int:
+        steps = range(118)  # half a view
+        inside = [
+            i
+            for i in steps
+            if image.rect().contains(x + dx * i, y + dy * i)
+            and image.pixelColor(x + dx * i, y + dy * i).name() == base
+        ]
+        return max(inside)
+
+    middle_y = (13 + 6 + 2 + 266) // 2
+    for middle_x in (120, 360):
+        across = reach(middle_x + 1, middle_y + 9, 1, 0)
+        up = reach(middle_x + 9, middle_y, 0, -1)
+        assert across == pytest.approx(up, abs=4)
+
+
+@pytest.mark.parametrize("is_rotation", [False, True])
+def test_each_direction_has_a_picture_of_its_own(qtbot, is_rotation):
+    view = DirectionView()
+    qtbot.addWidget(view)
+    view.resize(160, 140)
+    view.show()
+    pictures = []
+    for axis in range(3):
+        for sign in (-1, 1):
+            view.show_direction(Direction(axis, sign, is_rotation))
+            pictures.append(view.grab().toImage())
+    view.show_direction(None)
+    pictures.append(view.grab().toImage())
+    for i, one in enumerate(pictures):
+        assert all(one != other for other in pictures[i + 1 :])
+
+
+def test_a_bar_over_the_threshold_stands_out(qtbot, scenes):
+    bars = OutputBars()
+    qtbot.addWidget(bars)
+    bars.resize(300, 90)
+    bars.show()
+    info = colours_of(bars.palette()).info
+
+    def coloured() -> int:
+        image = bars.grab().toImage()
+        return sum(image.pixelColor(x, 60).name() == info for x in range(300))
+
+    bars.show_outputs(scenes.not_recognised().outputs)
+    assert coloured() == 0
+    bars.show_outputs(scenes.recognised("X+").outputs)
+    assert 10 < coloured() < 25
