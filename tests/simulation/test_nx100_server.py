@@ -118,6 +118,18 @@ def test_independent_client_does_its_round(segments):
         assert client.io_read(22010, 16, persistent=True) == [1, 2]
 
 
+def test_independent_client_stands_coalesced_answers_where_its_data_comes_between():
+    with (
+        Nx100Emulator(Nx100Options(segments=Segments.COALESCED)) as running,
+        yrcom.YaskawaClient("127.0.0.1", running.port, timeout=LIMIT_S) as client,
+    ):
+        client.send_start(keep_alive=-1)
+        assert client.hold(True, persistent=True)
+        assert client.hold(False, persistent=True)
+        assert client.read_position_cartesian(1, persistent=True)["X"] == 800.0
+        assert client.send_command("IMOV", len(move()), move()).strip() == "0000"
+
+
 def test_independent_client_does_single_transactions(emulator):
     client = yrcom.YaskawaClient("127.0.0.1", emulator.port, timeout=LIMIT_S)
     assert client.read_rstats(decode=False) in ([194, 64], "194,64\r")
