@@ -90,7 +90,7 @@ def _arrow_points(direction: Direction, centre: QPointF, unit: float) -> list[QP
     axis = _ON_SCREEN[direction.axis]
     if not direction.is_rotation:
         end = axis * unit * 0.8 * direction.sign
-        return [centre, centre + end * 0.85, centre + end]
+        return [centre - end * 0.6, centre + end * 0.85, centre + end]
     # The two other axes span the plane of the turn; their cyclic order makes it right-handed.
     first, second = _ON_SCREEN[(direction.axis + 1) % 3], _ON_SCREEN[(direction.axis + 2) % 3]
     middle = centre + axis * unit * 0.3

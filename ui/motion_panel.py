@@ -5,7 +5,7 @@ from PySide6.QtWidgets import QFrame, QGridLayout, QLabel, QProgressBar, QWidget
 from gestureapp.cell.snapshot import CellState, RobotView, Snapshot
 from ui.labels import plain
 from ui.theme import TEXT_PX, sized
-from ui.words import end_of, increment_text, pose_age_text, pose_text, progress
+from ui.words import end_of, increment_text, near, pose_age_text, pose_text, progress
 
 _TITLES = {
     CellState.ACTIVATED: "The robot will",
@@ -83,4 +83,5 @@ def _now_text(robot: RobotView) -> str:
     if robot.pose is None:
         return old
     is_rotation = robot.increment is not None and robot.increment.is_rotation
-    return pose_text(robot.pose, is_rotation) + (f" ({old})" if old else "")
+    pose = near(robot.pose, robot.start) if is_rotation and robot.start else robot.pose
+    return pose_text(pose, is_rotation) + (f" ({old})" if old else "")

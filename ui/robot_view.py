@@ -155,7 +155,7 @@ class _View:
             painter.setPen(QPen(QColor(colours.line), 1.5))
             painter.setBrush(QColor(fill))
             painter.drawEllipse(centre, radius, radius)
-            corner = centre + QPointF(-0.707, 0.707) * radius
+            corner = centre + QPointF(-0.6, 0.8) * radius
             label = QRectF(corner.x() - 62, corner.y() + 1, 60, 16)
             self._write(label, f"R {radius_mm:.0f}", Qt.AlignmentFlag.AlignRight)
         painter.setBrush(Qt.BrushStyle.NoBrush)

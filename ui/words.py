@@ -158,6 +158,12 @@ def progress(start: Pose, increment: PoseIncrement, pose: Pose) -> float:
     return min(1.0, max(0.0, done / whole**2))
 
 
+def near(pose: Pose, start: Pose) -> Pose:
+    """The same pose with angles that go on from ``start``, beyond the half turn if need be."""
+    pairs = zip(pose.rotation_deg, start.rotation_deg, strict=True)
+    return Pose(*pose.position_mm, *(then + _turn(now - then) for now, then in pairs))
+
+
 def pose_text(pose: Pose, is_rotation: bool) -> str:
     """The half of a pose that a move changes, with unit and fixed digits."""
     if is_rotation:

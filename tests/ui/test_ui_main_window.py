@@ -113,6 +113,14 @@ def test_a_move_is_told_before_and_while_it_runs(window, cell, scenes):
     assert window.findChild(QProgressBar, "motionBar").value() == 400
 
 
+def test_angles_of_a_rotation_go_on_from_the_start_beyond_the_half_turn(window, cell, scenes):
+    show(window, cell, scenes.moving("RX+", share=0.5))
+    assert cell.shown.robot.pose.rx_deg < 0
+    assert text_of(window, "motionStart") == "Rx 180.0°  Ry 0.0°  Rz 0.0°"
+    assert text_of(window, "motionNowat") == "Rx 209.0°  Ry 0.0°  Rz 0.0°"
+    assert text_of(window, "motionEnd") == "Rx 238.0°  Ry 0.0°  Rz 0.0°"
+
+
 def test_the_last_five_events_stand_with_milliseconds_newest_first(window, cell, scenes):
     show(window, cell, replace(cell.shown, events=tuple(scenes.events(7))))
     assert text_of(window, "event_0") == "The robot stands"
