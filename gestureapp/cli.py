@@ -8,22 +8,19 @@ import argparse
 import json
 import logging
 import sys
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from gestureapp import __version__
 
 if TYPE_CHECKING:  # children start quickly only when nothing heavy is imported with the parser
-    from gestureapp.running import RunningCell
+    from gestureapp.window_port import OpenWindow
 
 FINE, FAILED, USAGE = 0, 1, 2
 
-OpenWindow = Callable[["RunningCell", float | None], int]
-"""Shows a running cell; given by the package that knows windows."""
 
-
-def main(arguments: Sequence[str] | None = None, open_window: OpenWindow | None = None) -> int:
+def main(arguments: Sequence[str] | None = None, open_window: "OpenWindow | None" = None) -> int:
     """Run one command and return its exit code.
 
     Args:
@@ -39,9 +36,11 @@ def main(arguments: Sequence[str] | None = None, open_window: OpenWindow | None 
     from gestureapp.errors import GestureAppError
 
     try:
-        if options.run is None:
-            return _application(options, open_window)
-        return int(options.run(options))
+        if options.run is not None:
+            return int(options.run(options))
+        if hasattr(options, "what"):
+            return _benchmark(options, open_window)
+        return _application(options, open_window)
     except GestureAppError as error:
         sys.stderr.write(f"gestureapp: {error}\n")
         return FAILED
@@ -132,12 +131,11 @@ def _add_benchmark(commands: "argparse._SubParsersAction[argparse.ArgumentParser
     benchmark.add_argument("what", choices=("latency", "stop", "training", "startup"))
     benchmark.add_argument("--seconds", type=_seconds, default=40.0, help="at least, per case")
     benchmark.add_argument("--json", action="store_true")
-    benchmark.set_defaults(run=_benchmark)
+    benchmark.set_defaults(run=None)
 
 
-def _application(options: argparse.Namespace, open_window: OpenWindow | None) -> int:
+def _application(options: argparse.Namespace, open_window: "OpenWindow | None") -> int:
     assert open_window is not None
-    from gestureapp.config import Settings
     from gestureapp.running import data_folder, running_cell, settings_files
     from gestureapp.settings_file import load_settings
     from gestureapp.simulation.demo import DemoOptions
@@ -145,10 +143,9 @@ def _application(options: argparse.Namespace, open_window: OpenWindow | None) ->
     logging.basicConfig(
         level=options.log_level.upper(), format="%(asctime)s %(levelname)s %(name)s: %(message)s"
     )
-    settings, findings = Settings(), []
-    if not options.demo or options.config is not None:
-        files = [] if options.demo else settings_files()
-        settings, findings = load_settings(files, options.config)
+    # A demo is the same everywhere: the files of site and user are for the real cell.
+    files = [] if options.demo else settings_files()
+    settings, findings = load_settings(files, options.config)
     for finding in findings:
         sys.stderr.write(f"gestureapp: {finding}\n")
     demo = DemoOptions() if options.demo else None
@@ -230,10 +227,12 @@ def _evaluate(options: argparse.Namespace) -> int:
     return FINE
 
 
-def _benchmark(options: argparse.Namespace) -> int:
-    from gestureapp.benchmark import run
+def _benchmark(options: argparse.Namespace, open_window: "OpenWindow | None") -> int:
+    from gestureapp.benchmark import measure
 
-    return run(options.what, options.seconds, as_json=options.json)
+    report = measure(options.what, options.seconds, open_window)
+    _write(json.dumps(report.as_json()) if options.json else report.as_table())
+    return FINE
 
 
 def _seconds(text: str) -> float:

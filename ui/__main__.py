@@ -4,13 +4,16 @@ import sys
 
 from gestureapp import cli
 from gestureapp.running import RunningCell
+from gestureapp.window_port import Driver
 
 
-def open_window(running: RunningCell, exit_after_s: float | None) -> int:
+def open_window(
+    running: RunningCell, exit_after_s: float | None, driver: Driver | None = None
+) -> int:
     """Show the window of a running cell until it is closed; the exit code."""
     from ui.app import run_window
 
-    return run_window(running.cell, running.operator, exit_after_s)
+    return run_window(running.cell, running.operator, exit_after_s, driver)
 
 
 def main() -> int:

@@ -12,6 +12,7 @@ from PySide6.QtCore import (
     QCoreApplication,
     QEvent,
     QMessageLogContext,
+    QObject,
     Qt,
     QTimer,
     QtMsgType,
@@ -21,11 +22,17 @@ from PySide6.QtGui import QGuiApplication
 from PySide6.QtWidgets import QApplication
 
 from gestureapp.cell.controls import CellControls
+from gestureapp.clock import monotonic
+from gestureapp.window_port import Driver
+from gestureapp.worker import Worker
+from ui.hands import Hands
 from ui.main_window import MainWindow
 from ui.theme import Theme
 from ui.virtual_operator import VirtualOperator
 
 log = logging.getLogger(__name__)
+
+DRIVER_ENDS_WITHIN_S = 10.0
 
 ExceptHook = Callable[[type[BaseException], BaseException, TracebackType | None], object]
 
@@ -42,6 +49,7 @@ def run_window(
     cell: CellControls,
     virtual: VirtualOperator | None = None,
     exit_after_s: float | None = None,
+    driver: Driver | None = None,
 ) -> int:
     """Show the cell until the window is closed; then the cell is shut down.
 
@@ -51,6 +59,7 @@ def run_window(
         cell: The running cell.
         virtual: Moves the emulated arms; its panel is shown when it is given.
         exit_after_s: Close the window by itself after this time, for unattended runs.
+        driver: Uses the window as a person would, in a thread of its own.
 
     Returns:
         The exit code: 0.
@@ -65,6 +74,8 @@ def run_window(
                 _fit(window)
                 if exit_after_s is not None:
                     QTimer.singleShot(round(exit_after_s * 1000), window, window.close)
+                window.installEventFilter(_FirstPaint(window))
+            with _driven(window, driver):
                 return app.exec()
         finally:
             _delete(window)
@@ -101,6 +112,32 @@ def stopping_hook(cell: CellControls, before: ExceptHook) -> ExceptHook:
         )
 
     return hook
+
+
+class _FirstPaint(QObject):
+    """Notes in the log when the window has been painted for the first time."""
+
+    def eventFilter(self, watched: QObject, event: QEvent) -> bool:
+        """Watch for the first paint; the note is made after it."""
+        if event.type() is QEvent.Type.Paint:
+            watched.removeEventFilter(self)
+            QTimer.singleShot(0, lambda: log.info("painted at %.4f s", monotonic()))
+        return False
+
+
+@contextmanager
+def _driven(window: MainWindow, driver: Driver | None) -> Iterator[None]:
+    """Let a driver use the window for as long as it is open."""
+    if driver is None:
+        yield
+        return
+    hands = Hands(window)
+    worker = Worker("driver", lambda _: driver(hands), lambda _: hands.close())
+    worker.start()
+    try:
+        yield
+    finally:
+        worker.stop(DRIVER_ENDS_WITHIN_S)
 
 
 def _application() -> QApplication:

@@ -1,0 +1,210 @@
+"""A demo cell with its window, driven by a script, and the truth that the emulators logged."""
+
+import contextlib
+import json
+import subprocess
+import tempfile
+import threading
+import time
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from pathlib import Path
+
+from gestureapp.cell.snapshot import CellState, Snapshot
+from gestureapp.children import child_command, child_environment
+from gestureapp.clock import monotonic
+from gestureapp.config import Settings
+from gestureapp.errors import WorkerError
+from gestureapp.running import RunningCell, running_cell
+from gestureapp.simulation.control_link import ControlLink
+from gestureapp.simulation.demo import HOST, DemoOptions
+from gestureapp.window_port import OpenWindow, WindowHands
+from gestureapp.worker import Worker
+
+LOOK_S = 0.004
+"""How often the script looks at the cell; figures come from the logs, not from these looks."""
+
+
+@dataclass(frozen=True, slots=True)
+class Requested:
+    """A request that the controller emulator has received. Times: first and last byte."""
+
+    name: str
+    data: str
+    first_s: float
+    last_s: float
+
+
+class Stage:
+    """What a script works with: the cell, the virtual operator, the window's STOP.
+
+    Attributes:
+        running: The demo cell.
+        hands: Presses the window.
+        n_surprises: Stops that nobody asked for; the script arms again after them.
+    """
+
+    def __init__(self, running: RunningCell, hands: WindowHands) -> None:
+        assert running.operator is not None
+        assert running.demo is not None
+        self.running, self.hands = running, hands
+        self.operator, self.demo = running.operator, running.demo
+        self.n_surprises = 0
+
+    @property
+    def now(self) -> Snapshot:
+        """The cell as it is."""
+        return self.running.cell.snapshot()
+
+    def wait(self, is_so: Callable[[Snapshot], bool], limit_s: float) -> bool:
+        """Look until something is so; whether it was within the limit."""
+        until_s = monotonic() + limit_s
+        while not is_so(self.now):
+            if monotonic() > until_s:
+                return False
+            time.sleep(LOOK_S)
+        return True
+
+    def arm(self) -> None:
+        """Lower the left arm and arm.
+
+        Raises:
+            WorkerError: it does not arm; the text says what stands against it.
+        """
+        if self.now.state is CellState.ARMED:
+            return
+        self.operator.restore_sensors()
+        self.operator.left_stop()
+        if not self.wait(lambda s: s.can_arm, 20.0):
+            raise WorkerError("benchmark", f"not ready: {[b.text for b in self.now.blockers]}")
+        self.running.cell.arm()
+        if not self.wait(lambda s: s.state is CellState.ARMED, 5.0):
+            raise WorkerError("benchmark", f"not armed: {self.now.sentence}")
+
+    def move(self, label: str) -> bool:
+        """Make a gesture; whether the robot moves for it."""
+        self.arm()
+        self.operator.gesture(label)
+        is_moving = self.wait(lambda s: s.state in (CellState.MOVING, CellState.STOPPED), 5.0)
+        if self.now.state is CellState.STOPPED:
+            self.n_surprises += 1
+        return is_moving and self.now.state is CellState.MOVING
+
+    def free(self) -> bool:
+        """Stop by the left arm and wait until the next gesture can be made."""
+        self.operator.left_stop()
+        is_free = self.wait(_is_free, 5.0)
+        if self.now.state is CellState.STOPPED:
+            self.n_surprises += 1
+        return is_free
+
+    def sent(self, control_port: int, count: int) -> dict[int, float]:
+        """When a sensor emulator had written its last samples, by their running number."""
+        with ControlLink("sensor emulator", HOST, control_port) as link:
+            rows = link.ask({"do": "log", "count": count})["log"]
+        assert isinstance(rows, list)
+        return {row["n"]: row["sent_s"] for row in rows}
+
+
+@dataclass(frozen=True, slots=True)
+class Truth:
+    """What is left after a run.
+
+    Attributes:
+        session: The recorded session.
+        requests: Everything the controller emulator received, in order.
+        ends_s: When its motions ended.
+    """
+
+    session: Path
+    requests: tuple[Requested, ...]
+    ends_s: tuple[float, ...]
+
+    def first(self, name: str, data: str, after_s: float) -> Requested | None:
+        """The first request of a kind whose first byte came after a time."""
+        for request in self.requests:
+            if request.name == name and request.data == data and request.first_s >= after_s:
+                return request
+        return None
+
+
+def perform(script: Callable[[Stage], None], open_window: OpenWindow) -> Truth:
+    """Run a script on a demo cell with its window drawn.
+
+    Raises:
+        GestureAppError: the cell could not be started, or the script could not go on.
+    """
+    with tempfile.TemporaryDirectory() as folder:
+        log_file = Path(folder) / "nx100.jsonl"
+        demo = DemoOptions(nx100_arguments=("--log", str(log_file)))
+        troubles: list[WorkerError] = []
+        with running_cell(Settings(), Path(folder), demo) as running:
+
+            def driver(hands: WindowHands) -> None:
+                try:
+                    script(Stage(running, hands))
+                except WorkerError as error:
+                    troubles.append(error)
+                finally:
+                    hands.close()
+
+            open_window(running, None, driver)
+        if troubles:
+            raise troubles[0]
+        session = running.recorder.path
+        assert session is not None
+        kept = Path(tempfile.mkdtemp()) / session.name
+        kept.write_bytes(session.read_bytes())
+        requests, ends_s = _read_log(log_file)
+        return Truth(kept, requests, ends_s)
+
+
+@contextlib.contextmanager
+def training_beside(takes: Path | None) -> Iterator[None]:
+    """Keep a training child busy with the paper preset, over and over; nothing without takes."""
+    if takes is None:
+        yield
+        return
+    model = takes.with_suffix(".json")
+    command = [*child_command("train", str(takes), "-o", str(model)), "--preset", "paper"]
+
+    def train(stopping: threading.Event) -> None:
+        while not stopping.is_set():
+            with subprocess.Popen(
+                command, env=child_environment(), stdout=subprocess.DEVNULL
+            ) as child:
+                while child.poll() is None:
+                    if stopping.wait(0.05):
+                        child.kill()
+
+    worker = Worker("training beside", train)
+    worker.start()
+    try:
+        yield
+    finally:
+        worker.stop(10.0)
+
+
+def _is_free(snapshot: Snapshot) -> bool:
+    status = snapshot.robot.status
+    is_held = status is None or status.is_held or status.is_running
+    return snapshot.state is CellState.STOPPED or (
+        snapshot.state is CellState.ARMED and not is_held
+    )
+
+
+def _read_log(file: Path) -> tuple[tuple[Requested, ...], tuple[float, ...]]:
+    requests, ends_s = [], []
+    first_s: dict[int, float] = {}
+    for line in file.read_text("utf-8").splitlines():
+        event = json.loads(line)
+        match event["event"]:
+            case "bytes" if event["direction"] == "in" and "HOSTCTRL" in event["text"]:
+                first_s[event["connection"]] = event["t_s"]
+            case "request":
+                begun_s = first_s.get(event["connection"], event["t_s"])
+                name, data = event["request"], event["data"]
+                requests.append(Requested(name, data or "", begun_s, event["t_s"]))
+            case "motion_end":
+                ends_s.append(event["t_s"])
+    return tuple(requests), tuple(ends_s)

@@ -1,0 +1,29 @@
+"""What the engine may ask of a window it knows nothing about: to be shown, and to be pressed."""
+
+from collections.abc import Callable
+from typing import Protocol
+
+from gestureapp.running import RunningCell
+
+
+class WindowHands(Protocol):
+    """Presses what a person would press, as events of the window's own queue. Any thread."""
+
+    def press_stop(self) -> float:
+        """Press STOP with the mouse. Returns when the event was posted, monotonic seconds."""
+
+    def close(self) -> None:
+        """Close the window."""
+
+
+Driver = Callable[[WindowHands], None]
+"""Runs in a thread of its own while the window is open, and uses it as a person would."""
+
+
+class OpenWindow(Protocol):
+    """Shows a running cell until the window is closed."""
+
+    def __call__(
+        self, running: RunningCell, exit_after_s: float | None, driver: Driver | None = None
+    ) -> int:
+        """Show it; the exit code."""
