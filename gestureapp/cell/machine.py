@@ -47,6 +47,8 @@ from gestureapp.sensing.values import ArmPosture, Side
 
 DECISION_LIMIT_S = 1.0
 """An activation without outcome is given up after this; the recogniser answers long before."""
+ARMING_LIMIT_S = 3.0
+"""The guardian gives or refuses permission within 2 s; without an answer arming is given up."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -69,7 +71,7 @@ class MachineState:
         stop_since_s: Since when the left arm is in the stop posture; None when it is not.
         is_left_rested: The left arm was seen in stop since the last activation.
         blockers: What stands against arming.
-        is_arming: Permission was asked for; the guardian has not answered.
+        arming_since_s: When permission was asked for; None once the guardian has answered.
         is_proposed: A proposal is out for the present activation.
         stop_reason: Of the last stop.
         note: Why it is in this state, for a person.
@@ -83,7 +85,7 @@ class MachineState:
     stop_since_s: float | None = None
     is_left_rested: bool = False
     blockers: tuple[Blocker, ...] = ()
-    is_arming: bool = False
+    arming_since_s: float | None = None
     is_proposed: bool = False
     stop_reason: StopReason | None = None
     note: str = ""
@@ -93,6 +95,11 @@ class MachineState:
     def is_at_rest(self) -> bool:
         """Nothing may move, and arming is what comes next."""
         return self.state in (CellState.NOT_READY, CellState.READY, CellState.STOPPED)
+
+    @property
+    def is_arming(self) -> bool:
+        """Permission was asked for; the guardian has not answered."""
+        return self.arming_since_s is not None
 
     @property
     def can_arm(self) -> bool:
@@ -134,6 +141,9 @@ def step(s: MachineState, event: Event, rules: Rules) -> Step:
 
 def _ticked(s: MachineState, event: Ticked) -> Step:
     s = replace(s, blockers=event.blockers)
+    if s.arming_since_s is not None and event.t_s - s.arming_since_s > ARMING_LIMIT_S:
+        s = _arm_denied(s, "the guardian has not answered")
+        return s, (SendDisarm(), Say(s.note))
     if s.state is CellState.NOT_READY and not s.blockers:
         return _enter(s, CellState.READY, event.t_s, ""), ()
     if s.state is CellState.READY and s.blockers:
@@ -147,7 +157,7 @@ def _ticked(s: MachineState, event: Ticked) -> Step:
 
 def _left_posture(s: MachineState, event: LeftPosture, rules: Rules) -> Step:
     is_stop = event.posture is ArmPosture.STOP
-    stop_since_s = (s.stop_since_s or event.t_s) if is_stop else None
+    stop_since_s = (event.t_s if s.stop_since_s is None else s.stop_since_s) if is_stop else None
     is_rested = s.is_left_rested or is_stop
     s = replace(s, posture=event.posture, stop_since_s=stop_since_s, is_left_rested=is_rested)
     if s.state is CellState.ARMED and event.posture is ArmPosture.START and s.is_left_rested:
@@ -197,27 +207,38 @@ def _pressed(s: MachineState, event: ArmPressed | DisarmPressed | StopPressed) -
         case StopPressed():
             return _ask_stop(s, event.t_s, StopReason.STOP_PRESSED, "STOP was pressed")
         case ArmPressed() if s.can_arm:
-            return replace(s, is_arming=True), (SendArm(),)
+            return replace(s, arming_since_s=event.t_s), (SendArm(),)
         case ArmPressed() if s.blockers:
             return s, (Say(f"not armed: {s.blockers[0].text}"),)
-        case DisarmPressed() if s.state in (CellState.MOVING, CellState.ACTIVATED):
-            return _ask_stop(s, event.t_s, StopReason.DISARMED, "disarmed by the operator")
-        case DisarmPressed() if s.state is CellState.ARMED or s.is_arming:
-            s = replace(s, is_arming=False)
-            return _enter(s, CellState.NOT_READY, event.t_s, "disarmed"), (SendDisarm(),)
+        case DisarmPressed():
+            return _disarm(s, event.t_s)
+    return s, ()
+
+
+def _disarm(s: MachineState, t_s: float) -> Step:
+    if s.state in (CellState.MOVING, CellState.ACTIVATED, CellState.STOPPING):
+        return _ask_stop(s, t_s, StopReason.DISARMED, "disarmed by the operator")
+    if s.is_arming and s.state is CellState.STOPPED:
+        return replace(s, arming_since_s=None), (SendDisarm(),)
+    if s.is_arming or s.state is CellState.ARMED:
+        s = replace(s, arming_since_s=None)
+        return _enter(s, CellState.NOT_READY, t_s, "disarmed"), (SendDisarm(),)
     return s, ()
 
 
 def _permission(s: MachineState, event: ArmTaken | ArmDenied | PermissionLost) -> Step:
     match event:
-        case ArmTaken() if s.is_arming and s.is_at_rest:
-            s = replace(s, is_arming=False, stop_reason=None, is_left_rested=True)
+        case ArmTaken() if s.is_arming and s.is_at_rest and not s.blockers:
+            s = replace(s, arming_since_s=None, stop_reason=None)
             return _enter(s, CellState.ARMED, event.t_s, ""), (Say("armed"),)
+        case ArmTaken() if s.is_arming and s.is_at_rest:
+            s = _arm_denied(s, s.blockers[0].text)
+            return s, (SendDisarm(), Say(s.note))
         case ArmTaken():
             return s, (SendDisarm(),)
-        case ArmDenied():
-            note = f"not armed: {event.text}"
-            return replace(s, is_arming=False, note=note), (Say(note),)
+        case ArmDenied() if s.is_arming:
+            s = _arm_denied(s, event.text)
+            return s, (Say(s.note),)
         case PermissionLost() if s.state is CellState.ARMED:
             return _enter(s, CellState.NOT_READY, event.t_s, "disarmed by the guardian"), ()
         case PermissionLost() if s.state in _PERMITTED:
@@ -226,27 +247,36 @@ def _permission(s: MachineState, event: ArmTaken | ArmDenied | PermissionLost) -
     return s, ()
 
 
+def _arm_denied(s: MachineState, text: str) -> MachineState:
+    return replace(s, arming_since_s=None, note=f"not armed: {text}")
+
+
 def _move(s: MachineState, event: MoveAccepted | MoveRefused | MoveEnded) -> Step:
     if event.activation_id != s.activation_id:
         return s, ()
     match event:
-        case MoveAccepted() if s.state is CellState.ACTIVATED and s.is_proposed:
+        case MoveAccepted() if _is_proposed(s):
             return _enter(s, CellState.MOVING, event.t_s, s.note), ()
-        case MoveRefused() if s.state is CellState.ACTIVATED and s.is_proposed:
+        case MoveRefused() if _is_proposed(s):
             return _give_up(s, event.t_s, f"not moved: {event.text}")
-        case MoveEnded() if s.state in (CellState.ACTIVATED, CellState.MOVING):
+        case MoveEnded() if s.state is CellState.MOVING or _is_proposed(s):
             note = "the end of the increment is reached"
             return _enter(s, CellState.ARMED, event.t_s, note), (Say(note),)
     return s, ()
 
 
+def _is_proposed(s: MachineState) -> bool:
+    return s.state is CellState.ACTIVATED and s.is_proposed
+
+
 def _stop(s: MachineState, event: StopTaken | StopDone | StopOpen) -> Step:
     match event:
         case StopTaken():
-            reason = s.stop_reason if _is_latched_stop(s) else event.reason
-            s = replace(s, is_arming=False, stop_reason=reason, is_stop_unconfirmed=False)
             effects = (EndCollecting(),) if s.state is CellState.ACTIVATED else ()
             said = Say(event.text, is_alarm=event.reason.is_latched)
+            if _is_latched_stop(s) and not event.reason.is_latched:
+                return s, (said,)
+            s = replace(s, arming_since_s=None, stop_reason=event.reason, is_stop_unconfirmed=False)
             return _enter(s, CellState.STOPPING, event.t_s, event.text), (*effects, said)
         case StopDone() if s.state is CellState.STOPPING:
             s = replace(s, is_stop_unconfirmed=False)
@@ -275,7 +305,7 @@ def _ask_stop(s: MachineState, t_s: float, reason: StopReason, text: str) -> Ste
         effects = (EndCollecting(), *effects)
     if _is_latched_stop(s):
         return s, effects
-    s = replace(s, is_arming=False, stop_reason=reason, is_stop_unconfirmed=False)
+    s = replace(s, arming_since_s=None, stop_reason=reason, is_stop_unconfirmed=False)
     return _enter(s, CellState.STOPPING, t_s, text), effects
 
 
