@@ -75,8 +75,8 @@ def run_window(
                 if exit_after_s is not None:
                     QTimer.singleShot(round(exit_after_s * 1000), window, window.close)
                 window.installEventFilter(_FirstPaint(window))
-            with _driven(window, driver):
-                return app.exec()
+                with _driven(window, driver):
+                    return app.exec()
         finally:
             _delete(window)
     finally:

@@ -37,6 +37,7 @@ FRAME_MS = 30
 """33 frames a second."""
 STOP_SHARE = 6
 """The slab takes at least this part, one sixth, of the window's width."""
+_STATE_SHARE = 8
 _LEAST = (900, 500)
 """Everything is in sight from 1280 by 720 on; below that the middle scrolls, never STOP."""
 _BEFORE_A_MOVE = (CellState.NOT_READY, CellState.READY, CellState.STOPPED)
@@ -123,8 +124,9 @@ class MainWindow(QMainWindow):
         event.accept()
 
     def resizeEvent(self, event: QResizeEvent) -> None:
-        """Keep the slab's share of the width."""
+        """Keep the slab's share of the width, and the state's of the height."""
         super().resizeEvent(event)
+        self._state.setMinimumHeight(self.height() // _STATE_SHARE)
         self._slab.setFixedWidth(-(-self.width() // STOP_SHARE))
 
     def _show(self, snapshot: Snapshot) -> None:
@@ -187,8 +189,8 @@ class MainWindow(QMainWindow):
         middle.addLayout(right, 9)
         work = QVBoxLayout()
         work.setContentsMargins(0, 0, 0, 0)
-        work.addWidget(self._state, 2)
-        work.addLayout(middle, 11)
+        work.addWidget(self._state)
+        work.addLayout(middle, 1)
         if self._virtual is not None:
             work.addWidget(self._virtual)
         body = QHBoxLayout()

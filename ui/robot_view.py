@@ -80,7 +80,7 @@ class FieldView(QFrame):
         colours = colours_of(self.palette())
         half = self.width() / 2
         for i, plane in enumerate((SIDE, TOP)):
-            area = QRectF(i * half, 0, half, self.height()).adjusted(4, 2, -4, -4)
+            area = QRectF(i * half, 0, half, self.height()).adjusted(4, 5, -4, -4)
             _View(painter, area, plane, self._settings, colours).draw(self._robot, self.path_mm)
         painter.end()
 

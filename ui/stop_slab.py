@@ -107,7 +107,7 @@ class StopKeys(QObject):
         super().__init__(parent)
         self._stop = stop
 
-    def eventFilter(self, watched: QObject, event: QEvent) -> bool:  # noqa: N802, Qt's spelling
+    def eventFilter(self, watched: QObject, event: QEvent) -> bool:
         """Take the two keys out of the stream of events."""
         if event.type() is not QEvent.Type.KeyPress or not isinstance(event, QKeyEvent):
             return False
