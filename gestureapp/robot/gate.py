@@ -179,7 +179,8 @@ def decide(proposal: Proposal, view: GateView, limits: Limits, now_s: float) -> 
     planned = plan(view.pose, proposal.direction, limits.field)
     if isinstance(planned, Refusal):
         return planned
-    speed = limits.speed_deg_s if proposal.direction.is_rotation else limits.speed_mm_s
+    asked = limits.speed_deg_s if proposal.direction.is_rotation else limits.speed_mm_s
+    speed = nx100.wire_speed(asked)
     request = nx100.move_increment(planned.increment, speed, limits.frame, limits.tool)
     return Command(proposal, planned, speed, Permit(request))
 

@@ -77,8 +77,13 @@ def move_increment(increment: PoseIncrement, speed: float, frame: int, tool: int
     speed_class = 1 if increment.is_rotation else 0
     lengths = ",".join(_decimal(v, 3) for v in increment.translation_mm)
     angles = ",".join(_decimal(v, 2) for v in increment.rotation_deg)
-    data = f"{speed_class},{_decimal(speed, 1)},{frame},{lengths},{angles},0,{tool},0,0,0,0,0,0"
+    data = f"{speed_class},{_decimal(wire_speed(speed), 1)},{frame},{lengths},{angles},0,{tool},0,0,0,0,0,0"
     return Request("IMOV", data)
+
+
+def wire_speed(speed: float) -> float:
+    """The speed as it can be said: one decimal, never above what was let through."""
+    return math.floor(speed * 10) / 10
 
 
 def _decimal(value: float, places: int) -> str:
