@@ -77,7 +77,8 @@ def move_increment(increment: PoseIncrement, speed: float, frame: int, tool: int
     speed_class = 1 if increment.is_rotation else 0
     lengths = ",".join(_decimal(v, 3) for v in increment.translation_mm)
     angles = ",".join(_decimal(v, 2) for v in increment.rotation_deg)
-    data = f"{speed_class},{_decimal(wire_speed(speed), 1)},{frame},{lengths},{angles},0,{tool},0,0,0,0,0,0"
+    speed_text = _decimal(wire_speed(speed), 1)
+    data = f"{speed_class},{speed_text},{frame},{lengths},{angles},0,{tool},0,0,0,0,0,0"
     return Request("IMOV", data)
 
 
