@@ -56,6 +56,9 @@ ANSWER_LIMIT_S = {"RSTATS": 0.3, "RPOSC": 0.3, "RALARM": 0.3, "IMOV": 0.5, "HOLD
 in the middle of it would mean never holding. SVON on may come late: vendor SDKs wait up to 10 s.
 """
 
+HARMLESS = frozenset({nx100.HOLD_ON, nx100.SERVO_OFF})
+"""Requests with data that only ever stop: a stop does not take them back."""
+
 
 class Exchange:
     """One session with the controller. Owned by the supervisor.
@@ -93,8 +96,14 @@ class Exchange:
         self._await(Phase.OPENING, None, now_s, OPENING_LIMIT_S)
         return nx100.CONNECT
 
-    def send(self, permit: Permit, now_s: float) -> bytes:
+    def send(self, permit: Permit, now_s: float, *, is_stopping: bool = False) -> bytes:
         """Start a request that the gate let through: the bytes of its header.
+
+        Args:
+            permit: From the gate.
+            now_s: Monotonic clock.
+            is_stopping: A stop is under way: a read may take as long as a HOLD, or a slow
+                controller could never confirm the stop.
 
         Raises:
             RuntimeError: a request is in flight or the session is not open; a bug of the caller.
@@ -102,6 +111,8 @@ class Exchange:
         if not self.can_send:
             raise RuntimeError(f"{permit.request} asked for while {self.phase.value}")
         limit_s = ANSWER_LIMIT_S.get(permit.request.name, 0.3)
+        if is_stopping:
+            limit_s = max(limit_s, ANSWER_LIMIT_S["HOLD"])
         self._await(Phase.HEADER_SENT, permit.request, now_s, limit_s)
         return permit.request.header
 
@@ -109,8 +120,10 @@ class Exchange:
         """Take bytes from the controller: what they mean, and the bytes to send in turn."""
         events: list[ExchangeEvent] = []
         out = b""
+        if self.phase is Phase.CLOSED:
+            return events, out
         for raw in self._lines.feed(data):
-            event, more = self._line(raw.decode("ascii", "backslashreplace"), now_s)
+            event, more = self._hear(raw, out, now_s)
             out += more
             if event is not None:
                 events.append(event)
@@ -118,7 +131,20 @@ class Exchange:
                 return events, b""
         if self._lines.is_overlong:
             events.append(self._break(f"no line end in {len(self._lines.rest)} bytes"))
+            return events, b""
         return events, out
+
+    def withdraw(self) -> list[ExchangeEvent]:
+        """Take back a request whose data has not gone out yet: the session ends with it.
+
+        The controller awaits data now; ending the session is the only way not to send any.
+        Reads and stops are not taken back.
+        """
+        if self.phase is not Phase.HEADER_SENT or self.request is None:
+            return []
+        if self.request.data is None or self.request in HARMLESS or self.request.name == "RPOSC":
+            return []
+        return [self._break(f"{self.request.name} was taken back before its data went out")]
 
     def end(self, reason: str) -> list[ExchangeEvent]:
         """The stream has ended, or could not be opened."""
@@ -132,6 +158,14 @@ class Exchange:
             return []
         awaited = "CONNECT" if self.request is None else str(self.request)
         return [self._break(f"no answer to {awaited} within {now_s - self._since_s:.2f} s")]
+
+    def _hear(self, raw: bytes, unsent: bytes, now_s: float) -> tuple[ExchangeEvent | None, bytes]:
+        if len(raw) > nx100.MAX_LINE:
+            return self._break(f"a line of {len(raw)} bytes"), b""
+        line = raw.decode("ascii", "backslashreplace")
+        if unsent:
+            return self._break(f"the controller said {_short(line)} before it had the data"), b""
+        return self._line(line, now_s)
 
     def _line(self, line: str, now_s: float) -> tuple[ExchangeEvent | None, bytes]:
         match self.phase:
