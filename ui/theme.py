@@ -11,6 +11,7 @@ from PySide6.QtCore import QObject, Qt
 from PySide6.QtGui import QColor, QFont, QPalette
 from PySide6.QtWidgets import QApplication, QWidget
 
+STYLE = "fusion"
 SMALL_PX = 12
 """Notes and units."""
 TEXT_PX = 13
@@ -148,7 +149,8 @@ class Theme(QObject):
     def __init__(self, app: QApplication) -> None:
         super().__init__(app)
         self._app = app
-        app.setStyle("Fusion")
+        if app.style().name() != STYLE:  # a second change would replace a style in use
+            app.setStyle(STYLE)
         font = QFont(app.font())
         font.setPixelSize(TEXT_PX)
         app.setFont(font)

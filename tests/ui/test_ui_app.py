@@ -27,9 +27,13 @@ def test_a_request_to_terminate_closes_the_window(qapp, cell):
     assert signal.getsignal(signal.SIGTERM) is before
 
 
-def test_hooks_are_taken_back_when_the_window_is_gone(qapp, cell):
+def test_hooks_are_there_while_the_window_runs_and_taken_back_after(qapp, cell):
     before = sys.excepthook
-    run_window(cell, exit_after_s=0.05)
+    seen: list[object] = []
+    QTimer.singleShot(20, lambda: seen.append(sys.excepthook))
+    run_window(cell, exit_after_s=0.2)
+    assert len(seen) == 1
+    assert seen[0] is not before
     assert sys.excepthook is before
 
 
