@@ -22,6 +22,10 @@ STATUS_MAX_AGE_S = 0.8
 """Older than that, nobody knows whether the robot may move."""
 PROPOSAL_MAX_AGE_S = 0.15
 """A decision that took longer to arrive is not what the person means now."""
+AHEAD_S = 0.05
+"""A stamp this far in the future is not from our clock."""
+ROBOT_FRAMES = (0, 1)
+"""Base and robot: the same place, as the robot stands on no base axis."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -168,7 +172,8 @@ def permit(request: Request, view: GateView) -> Permit | Refusal:
 def decide(proposal: Proposal, view: GateView, limits: Limits, now_s: float) -> Command | Refusal:
     """Let a move through, or refuse it with the limit it met."""
     refusal = (
-        _permission(proposal, view)
+        _foreign_frame(limits)
+        or _permission(proposal, view)
         or _freshness(proposal, view, limits, now_s)
         or robot_blocker(view.status)
         or _left_arm(view, limits, now_s)
@@ -198,6 +203,8 @@ def arm_blocker(
     """
     if not view.is_link_open:
         return Refusal("no_link", "the robot does not answer")
+    if (foreign := _foreign_frame(limits)) is not None:
+        return foreign
     if view.is_stopping or view.is_releasing or view.is_moving:
         return Refusal("busy", "a move or a stop is under way")
     for t_s, text in ((view.status_s, "the robot's state"), (view.pose_s, "the robot's position")):
@@ -232,6 +239,14 @@ def robot_blocker(status: RobotStatus | None, *, ignore_own_hold: bool = False) 
         if is_bad:
             return Refusal(reason, text)
     return None
+
+
+def _foreign_frame(limits: Limits) -> Refusal | None:
+    """In a user frame neither the position nor the increment can be held against the field."""
+    if limits.frame in ROBOT_FRAMES:
+        return None
+    text = f"the field of operation is known in the robot's frame only, not in {limits.frame}"
+    return Refusal("frame", f"{text}: set frame to 0 or 1", f"frame {limits.frame}", "0 or 1")
 
 
 def _permission(proposal: Proposal, view: GateView) -> Refusal | None:
@@ -277,7 +292,7 @@ def _left_not_stop(view: GateView) -> Refusal | None:
 
 def _left_silent(view: GateView, limits: Limits, now_s: float) -> Refusal | None:
     age_s = now_s - view.left_s
-    if not age_s <= limits.trip_level_s:
+    if not -AHEAD_S <= age_s <= limits.trip_level_s:
         asked, limit = f"{age_s:.3f} s", f"{limits.trip_level_s:.3f} s"
         text = f"left sensor silent for {asked}, limit {limit}"
         return Refusal("left_silent", text, asked, limit)

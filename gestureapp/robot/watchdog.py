@@ -6,12 +6,9 @@ as bad as an old one.
 
 from dataclasses import dataclass
 
-from gestureapp.robot.gate import Limits
+from gestureapp.robot.gate import AHEAD_S, Limits
 from gestureapp.robot.messages import Beat
 from gestureapp.robot.values import StopReason
-
-AHEAD_S = 0.05
-"""A stamp this far in the future is not from our clock."""
 
 
 @dataclass(frozen=True, slots=True)
