@@ -9,27 +9,33 @@ import queue
 import threading
 from collections import deque
 from collections.abc import Callable
-from dataclasses import dataclass, replace
-from typing import Protocol
+from dataclasses import replace
 
 from gestureapp.cell import events as e
+from gestureapp.cell.inputs import (
+    GuardianPort,
+    GuardianSaid,
+    Input,
+    SampleCame,
+    SensorTold,
+    ServoAsked,
+)
 from gestureapp.cell.machine import MachineState, Rules, step
 from gestureapp.cell.readiness import Facts, find_blockers
 from gestureapp.cell.records import Json, Record, Recorder, Topic, fields_of
-from gestureapp.cell.robot_memory import RobotMemory, events_of
+from gestureapp.cell.robot_memory import RobotMemory, direction_of, events_of, robot_fields
 from gestureapp.cell.snapshot import Blocker, CellState, EventLine, Snapshot
 from gestureapp.cell.words import sentence
 from gestureapp.clock import Clock
 from gestureapp.config import Settings
 from gestureapp.errors import GuardianLost
-from gestureapp.gestures import Kind, gesture
 from gestureapp.recognition.values import Recogniser, Recognition
 from gestureapp.robot import messages as m
-from gestureapp.robot.values import Direction
+from gestureapp.robot.values import StopReason
 from gestureapp.robot.workspace import FieldOfOperation
 from gestureapp.sensing.posture import PostureDetector
 from gestureapp.sensing.stream import StreamTracker
-from gestureapp.sensing.values import ArmPosture, Sample, SensorEvent, Side
+from gestureapp.sensing.values import ArmPosture, Sample, Side
 
 TICK_S = 0.01
 """The control thread's own clock; also the longest time between two heartbeats."""
@@ -39,46 +45,11 @@ POSTURE_FORGOTTEN_S = 0.5
 """A left arm not heard for this long is in no posture; the watchdog has acted long before."""
 RESTART_S = 0.2
 """Between two attempts to start a guardian."""
+SILENT_TICKS = 150
+"""A guardian with work to do is heard every 0.25 s, and after 1.0 s at the latest behind a slow
+controller. Counted in our own ticks, so that a stall of this process is not taken for its
+silence."""
 KEPT_EVENTS = 50
-
-
-class GuardianPort(Protocol):
-    """What the control thread needs of the link to the guardian."""
-
-    def send(self, message: m.ToGuardian) -> None:
-        """Say something; never blocks for long, never raises."""
-
-
-@dataclass(frozen=True, slots=True)
-class SampleCame:
-    """A calibrated sample of one side."""
-
-    side: Side
-    sample: Sample
-
-
-@dataclass(frozen=True, slots=True)
-class SensorTold:
-    """Whatever else a reader tells."""
-
-    t_s: float
-    side: Side
-    event: SensorEvent
-
-
-@dataclass(frozen=True, slots=True)
-class GuardianSaid:
-    """A message of the guardian."""
-
-    message: m.FromGuardian
-
-
-@dataclass(frozen=True, slots=True)
-class ServoAsked:
-    """The operator wants servo power."""
-
-
-Input = SampleCame | SensorTold | GuardianSaid | ServoAsked | e.Event
 
 
 class Control:
@@ -99,6 +70,7 @@ class Control:
     Attributes:
         state: The machine's.
         picture: The newest snapshot; any thread.
+        at_rest: Set while nothing may move; any thread may wait for it.
     """
 
     def __init__(
@@ -132,6 +104,8 @@ class Control:
         self._robot = RobotMemory(f"{robot.host}:{robot.port}" if robot.host else "")
         self._guardian: GuardianPort | None = None
         self._guardian_tried_s = float("-inf")
+        self._guardian_trouble = ""
+        self._n_silent = 0
         self._owed_stop: m.Stop | None = None
         self._recognition: Recognition | None = None
         self._lines: deque[EventLine] = deque(maxlen=KEPT_EVENTS)
@@ -139,6 +113,8 @@ class Control:
         self._now_s = clock()
         self.n_overruns = 0
         self.state = MachineState(since_s=self._now_s)
+        self.at_rest = threading.Event()
+        self.at_rest.set()
         self.picture = self._take_picture()
 
     def put(self, item: Input) -> None:
@@ -176,14 +152,14 @@ class Control:
             case ServoAsked():
                 self._send(m.ServoOn())
             case e.GuardianGone():
-                self._guardian = None
-                self._step(item)
+                self._guardian_gone(item)
             case _:
                 self._step(item)
 
     def tick(self, now_s: float) -> None:
         """Look at the clocks; say that we are alive; give the window a new picture."""
         self._now_s = now_s
+        self._check_guardian()
         self._keep_guardian()
         self._check_streams()
         if self._recogniser is not None and (late := self._recogniser.check(now_s)) is not None:
@@ -219,7 +195,7 @@ class Control:
         for side, tracker in self._trackers.items():
             health = tracker.health(self._now_s)
             if not health.is_ok:
-                text = f"{side.value} sensor {health.reason}"
+                text = f"{side.value} sensor: {health.reason}"
                 self._step(e.StreamLost(self._now_s, side, text))
 
     def _recognised(self, answer: Recognition) -> None:
@@ -240,22 +216,52 @@ class Control:
         try:
             self._guardian = self._start_guardian()
         except GuardianLost as error:
-            self._say(e.Say(str(error), is_alarm=True))
+            self._guardian_not_started(str(error))
             return
+        self._guardian_trouble, self._n_silent = "", 0
         if self._owed_stop is not None:
             self._guardian.send(self._owed_stop)
             self._owed_stop = None
 
+    def _guardian_not_started(self, trouble: str) -> None:
+        self._robot.note(m.LinkReport(False, trouble))
+        if trouble != self._guardian_trouble:  # it is tried again and again, and told once
+            self._guardian_trouble = trouble
+            self._say(e.Say(trouble, is_alarm=True))
+
+    def _check_guardian(self) -> None:
+        """One that says nothing where it must is gone for us: frozen, or its line is stuck."""
+        s = self.state
+        is_awaited = not s.is_at_rest and not s.is_stop_unconfirmed
+        self._n_silent += 1
+        if self._guardian is not None and is_awaited and self._n_silent > SILENT_TICKS:
+            text = "the guardian process is silent; the robot is held by a new one"
+            self._guardian_gone(e.GuardianGone(self._now_s, text))
+
+    def _guardian_gone(self, gone: e.GuardianGone) -> None:
+        self._guardian = None
+        self._robot.note(m.LinkReport(False, gone.text))
+        self._step(gone)
+
     def _guardian_said(self, message: m.FromGuardian) -> None:
+        self._n_silent = 0
         self._robot.note(message)
         if isinstance(message, m.StatusReport | m.PoseReport):
-            self._record(Record(Topic.ROBOT, message.t_s, _robot_fields(message)))
+            self._record(Record(Topic.ROBOT, message.t_s, robot_fields(message)))
         else:
             self._record(Record(Topic.COMMAND, self._now_s, fields_of(message)))
         if isinstance(message, m.Notice):
             self._say(e.Say(message.text))
         for event in events_of(message, self._now_s):
-            self._step(event)
+            self._step(self._with_cause(event))
+
+    def _with_cause(self, event: e.Event) -> e.Event:
+        """The guardian knows only that the left sensor is silent; we know why."""
+        if isinstance(event, e.StopTaken) and event.reason is StopReason.LEFT_SILENT:
+            left = self._trackers[Side.LEFT].health(self._now_s)
+            if not left.is_ok:
+                return replace(event, text=f"left sensor: {left.reason}")
+        return event
 
     def _beat(self) -> None:
         if self._guardian is None:
@@ -290,9 +296,14 @@ class Control:
             self._carry_out(effect)
         if self.state.state is not before.state:
             self._beat()
+        if (self.state.state, self.state.note) != (before.state, before.note):
             self._tell_state()
 
     def _tell_state(self) -> None:
+        if self.state.is_at_rest:
+            self.at_rest.set()
+        else:
+            self.at_rest.clear()
         fields = {
             "state": self.state.state.value,
             "sentence": sentence(self.state, self._rules.drive_mode),
@@ -343,6 +354,7 @@ class Control:
                 status=self._robot.status,
                 status_age_s=self._now_s - self._robot.status_s,
                 pose=self._robot.pose,
+                pose_age_s=self._now_s - self._robot.pose_s,
                 field=self._field,
             )
         )
@@ -371,21 +383,3 @@ class Control:
             person=settings.person.name,
             model=self._model,
         )
-
-
-def direction_of(label: str) -> Direction:
-    """What a gesture asks of the robot.
-
-    Raises:
-        KeyError: no gesture has this label.
-    """
-    found = gesture(label)
-    return Direction(found.axis, found.sign, found.kind is Kind.POSTURE)
-
-
-def _robot_fields(message: m.StatusReport | m.PoseReport) -> dict[str, int | float | None]:
-    if isinstance(message, m.StatusReport):
-        return {"data_1": message.data_1, "data_2": message.data_2}
-    pose = message.pose
-    names = ("x_mm", "y_mm", "z_mm", "rx_deg", "ry_deg", "rz_deg")
-    return {name: getattr(pose, name) for name in names}

@@ -6,20 +6,14 @@ from dataclasses import replace
 from pathlib import Path
 
 from gestureapp.cell import events as e
-from gestureapp.cell.control import (
-    Control,
-    GuardianPort,
-    GuardianSaid,
-    SampleCame,
-    SensorTold,
-    ServoAsked,
-)
+from gestureapp.cell.control import Control
 from gestureapp.cell.guardian_link import GuardianLink
+from gestureapp.cell.inputs import GuardianPort, GuardianSaid, SampleCame, SensorTold, ServoAsked
 from gestureapp.cell.records import Record, Recorder, Topic
 from gestureapp.cell.snapshot import Snapshot
 from gestureapp.clock import Clock, monotonic
 from gestureapp.config import DriveMode, RobotSettings, SensorSettings, Settings
-from gestureapp.errors import ModelError, WorkerError
+from gestureapp.errors import ConfigError, GuardianLost, ModelError, WorkerError
 from gestureapp.gestures import LABELS
 from gestureapp.recognition.model_file import load_model
 from gestureapp.recognition.paper import PaperRecogniser
@@ -35,6 +29,10 @@ log = logging.getLogger(__name__)
 
 STALE_PICTURE_S = 0.5
 """An older picture is not what is: the control thread has stopped or is stuck."""
+CLOSING_LIMIT_S = 2.0
+"""A robot stands within 0.5 s; the guardian goes on stopping one that does not, also without us."""
+OLD_GUARDIAN_S = 0.1
+"""A guardian that has ended is gone by then; one that hangs is killed, so that only one holds."""
 
 
 class Cell:
@@ -47,6 +45,9 @@ class Cell:
         guardian_log: File for the guardian's own log, or None.
         clock: Monotonic seconds.
         wall_clock: Seconds since the epoch.
+
+    Raises:
+        ConfigError: the settings contradict each other or a limit that nobody may leave.
 
     Attributes:
         settings: As given.
@@ -64,6 +65,7 @@ class Cell:
         clock: Clock = monotonic,
     ) -> None:
         self.settings = settings
+        self._limits = _checked_limits(settings)
         self.left, self.right = SampleStore(), SampleStore()
         self._record, self._recording_words = record, recording_words
         self._guardian_log, self._clock = guardian_log, clock
@@ -73,7 +75,7 @@ class Cell:
         recogniser, model, problem = find_recogniser(settings)
         self._control = Control(
             settings=settings,
-            field=field_of(settings.robot),
+            field=self._limits.field,
             recogniser=recogniser,
             model=model,
             model_problem=problem,
@@ -133,6 +135,9 @@ class Cell:
         if self._is_closing:
             return
         self._is_closing = True
+        self._control.put(e.DisarmPressed(self._clock()))
+        if self._worker.is_alive:
+            self._control.at_rest.wait(CLOSING_LIMIT_S)
         for reader in self._readers:
             reader.stop()
         self._worker.stop()
@@ -160,17 +165,21 @@ class Cell:
     def _start_guardian(self) -> GuardianPort:
         old, robot = self._link, self.settings.robot
         if old is not None:
-            old.close(wait_s=0.0)
-        self._link = GuardianLink(
+            old.close(wait_s=OLD_GUARDIAN_S, is_killed=True)
+        link = GuardianLink(
             host=robot.host,
             port=robot.port,
-            limits=limits_of(self.settings),
+            limits=self._limits,
             log_file=self._guardian_log,
             on_message=lambda message: self._control.put(GuardianSaid(message)),
             on_lost=lambda text: self._control.put(e.GuardianGone(self._clock(), text)),
             clock=self._clock,
         )
-        return self._link
+        self._link = link
+        if self._is_closing:  # it came too late to be closed with the rest
+            link.close()
+            raise GuardianLost("the application is closing")
+        return link
 
     def _reader_died(self, error: WorkerError) -> None:
         self._control.put(e.Faulted(self._clock(), f"{error}; restart the application"))
@@ -222,6 +231,13 @@ def limits_of(settings: Settings) -> Limits:
         control_limit_s=site.control_limit_s,
         gui_limit_s=site.gui_limit_s,
     )
+
+
+def _checked_limits(settings: Settings) -> Limits:
+    try:
+        return limits_of(settings)
+    except ValueError as error:
+        raise ConfigError("robot and site settings", "as given", str(error)) from error
 
 
 def _sample_fields(sample: Sample) -> dict[str, int | float | None]:

@@ -38,8 +38,8 @@ class GuardianLink:
         limits: For the guardian's whole life.
         log_file: For the guardian's own log, or None.
         on_message: Gets what the guardian says, in the link's reader thread.
-        on_lost: Told once, in the reader thread, when the guardian is gone without being asked to
-        go. clock: Monotonic seconds.
+        on_lost: Told once, in the reader thread, when the guardian is gone unasked.
+        clock: Monotonic seconds.
 
     Raises:
         GuardianLost: it could not be started.
@@ -60,13 +60,7 @@ class GuardianLink:
         self._clock = clock
         self._is_closing = False
         token = secrets.token_hex(16)
-        self._process = subprocess.Popen(
-            child_command("guardian"),
-            stdin=subprocess.PIPE,
-            stdout=subprocess.PIPE,
-            start_new_session=True,
-            env=child_environment(),
-        )
+        self._process = _start_process()
         try:
             self._tell_start(m.Start(token, host, port, limits, str(log_file or "")))
             address = ("127.0.0.1", self._read_port())
@@ -95,8 +89,12 @@ class GuardianLink:
         with self._window_lock:
             self._send_on(self._window, message)
 
-    def close(self, wait_s: float = 3.0) -> bool:
+    def close(self, wait_s: float = 3.0, *, is_killed: bool = False) -> bool:
         """Let the guardian go: it stops what may still move, then ends. Idempotent.
+
+        Args:
+            wait_s: How long it may take.
+            is_killed: End one that has not ended by then: another one takes its place.
 
         Returns:
             Whether the guardian has ended within the time.
@@ -107,7 +105,7 @@ class GuardianLink:
             for sock in (self._control, self._window):
                 with contextlib.suppress(OSError):
                     sock.shutdown(socket.SHUT_WR)
-        has_ended = self._wait(wait_s)
+        has_ended = self._wait(wait_s, is_killed)
         self._reader.stop()
         for sock in (self._control, self._window):
             sock.close()
@@ -173,12 +171,15 @@ class GuardianLink:
         else:
             log.error("unreadable line from the guardian: %r", line[:80])
 
-    def _wait(self, wait_s: float) -> bool:
+    def _wait(self, wait_s: float, is_killed: bool) -> bool:
         try:
             self._process.wait(wait_s)
         except subprocess.TimeoutExpired:
-            log.error("the guardian (process %d) is still stopping the robot", self.pid)
-            return False
+            if not is_killed:
+                log.error("the guardian (process %d) is still stopping the robot", self.pid)
+                return False
+            log.warning("the guardian (process %d) hangs and is killed", self.pid)
+            self._process.kill()
         return True
 
     def _end_process(self) -> None:
@@ -187,3 +188,16 @@ class GuardianLink:
             if pipe is not None:
                 with contextlib.suppress(OSError):
                     pipe.close()
+
+
+def _start_process() -> subprocess.Popen[bytes]:
+    try:
+        return subprocess.Popen(
+            child_command("guardian"),
+            stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
+            start_new_session=True,
+            env=child_environment(),
+        )
+    except OSError as error:
+        raise GuardianLost(f"the guardian cannot be started: {error}; start again") from error

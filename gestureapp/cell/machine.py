@@ -276,8 +276,8 @@ def _stop(s: MachineState, event: StopTaken | StopDone | StopOpen) -> Step:
             said = Say(event.text, is_alarm=event.reason.is_latched)
             if _is_latched_stop(s) and not event.reason.is_latched:
                 return s, (said,)
-            s = replace(s, arming_since_s=None, stop_reason=event.reason, is_stop_unconfirmed=False)
-            return _enter(s, CellState.STOPPING, event.t_s, event.text), (*effects, said)
+            s = _enter_stopping(s, event.reason, event.t_s, event.text)
+            return s, (*effects, said)
         case StopDone() if s.state is CellState.STOPPING:
             s = replace(s, is_stop_unconfirmed=False)
             reason = s.stop_reason or event.reason
@@ -305,8 +305,14 @@ def _ask_stop(s: MachineState, t_s: float, reason: StopReason, text: str) -> Ste
         effects = (EndCollecting(), *effects)
     if _is_latched_stop(s):
         return s, effects
-    s = replace(s, arming_since_s=None, stop_reason=reason, is_stop_unconfirmed=False)
-    return _enter(s, CellState.STOPPING, t_s, text), effects
+    return _enter_stopping(s, reason, t_s, text), effects
+
+
+def _enter_stopping(s: MachineState, reason: StopReason, t_s: float, text: str) -> MachineState:
+    # Another reason for a stop that is already overdue does not make it less so.
+    is_unconfirmed = s.state is CellState.STOPPING and s.is_stop_unconfirmed
+    s = replace(s, arming_since_s=None, stop_reason=reason, is_stop_unconfirmed=is_unconfirmed)
+    return _enter(s, CellState.STOPPING, t_s, text)
 
 
 def _is_latched_stop(s: MachineState) -> bool:

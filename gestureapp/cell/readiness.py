@@ -40,6 +40,7 @@ class Facts:
         status: Last RSTATS, or None.
         status_age_s: How old that is.
         pose: Last RPOSC, or None.
+        pose_age_s: How old that is.
         field: Where the tool may go.
         lock: Why arming is locked out at all, or empty.
     """
@@ -54,6 +55,7 @@ class Facts:
     status: RobotStatus | None
     status_age_s: float
     pose: Pose | None
+    pose_age_s: float
     field: FieldOfOperation
     lock: str = ""
 
@@ -67,9 +69,10 @@ def _sensor_blockers(facts: Facts) -> Iterator[Blocker]:
     for health in (facts.left, facts.right):
         if not health.is_ok:
             side = health.side.value
-            cause, _, remedy = health.reason.partition(": ")
-            remedy = remedy or "check the sensor and its port"
-            yield Blocker(f"{side}_sensor", f"{side} sensor {cause}", remedy)
+            cause, colon, remedy = health.reason.rpartition(": ")
+            if not colon:
+                cause, remedy = health.reason, "check the sensor and its port"
+            yield Blocker(f"{side}_sensor", f"{side} sensor: {cause}", remedy)
     if facts.left.is_ok and (facts.stop_seen_s is None or facts.stop_seen_s < facts.stop_wanted_s):
         seen_s = facts.stop_seen_s or 0.0
         text = f"left arm seen in the stop posture for {seen_s:.1f} of {facts.stop_wanted_s:.1f} s"
@@ -98,6 +101,9 @@ def _robot_blockers(facts: Facts) -> Iterator[Blocker]:
         yield Blocker("robot_state", cause, _REMEDIES.get(refusal.reason, refusal.text))
     if facts.pose is None:
         yield Blocker("robot_pose", "the robot has not told its position", "wait a moment")
+    elif facts.pose_age_s > STATUS_MAX_AGE_S:
+        text = f"the robot's position is {facts.pose_age_s:.1f} s old"
+        yield Blocker("robot_pose", text, _REMEDIES["no_status"])
     elif (outside := find_outside(facts.pose, facts.field)) is not None:
         remedy = "move the tool back into the field with the pendant"
         yield Blocker("robot_pose", outside.text, remedy)

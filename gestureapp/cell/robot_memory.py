@@ -3,9 +3,11 @@
 from collections.abc import Iterator
 
 from gestureapp.cell import events as e
+from gestureapp.cell.records import Json
 from gestureapp.cell.snapshot import RobotView
+from gestureapp.gestures import Kind, gesture
 from gestureapp.robot import messages as m
-from gestureapp.robot.values import Pose, PoseIncrement, RobotStatus
+from gestureapp.robot.values import Direction, Pose, PoseIncrement, RobotStatus
 
 
 class RobotMemory:
@@ -90,3 +92,22 @@ def events_of(message: m.FromGuardian, t_s: float) -> Iterator[e.Event]:
             yield e.StopDone(t_s, message.reason)
         case m.StopUnconfirmed():
             yield e.StopOpen(t_s, message.text)
+
+
+def direction_of(label: str) -> Direction:
+    """What a gesture asks of the robot.
+
+    Raises:
+        KeyError: no gesture has this label.
+    """
+    found = gesture(label)
+    return Direction(found.axis, found.sign, found.kind is Kind.POSTURE)
+
+
+def robot_fields(message: m.StatusReport | m.PoseReport) -> dict[str, Json]:
+    """What the robot answered, as the record's topic has it."""
+    if isinstance(message, m.StatusReport):
+        return {"data_1": message.data_1, "data_2": message.data_2}
+    pose = message.pose
+    names = ("x_mm", "y_mm", "z_mm", "rx_deg", "ry_deg", "rz_deg")
+    return {name: getattr(pose, name) for name in names}
