@@ -1,7 +1,7 @@
 """Presses the window from another thread, as events of Qt's own queue: to measure a press."""
 
-from PySide6.QtCore import QCoreApplication, QEvent, QPointF, Qt
-from PySide6.QtGui import QCloseEvent, QMouseEvent
+from PySide6.QtCore import QCoreApplication, QEvent, QMetaObject, QPointF, Qt
+from PySide6.QtGui import QMouseEvent
 
 from gestureapp.clock import monotonic
 from ui.main_window import MainWindow
@@ -30,4 +30,4 @@ class Hands:
 
     def close(self) -> None:
         """Close the window."""
-        QCoreApplication.postEvent(self._window, QCloseEvent())
+        QMetaObject.invokeMethod(self._window, "close", Qt.ConnectionType.QueuedConnection)
