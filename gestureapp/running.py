@@ -11,6 +11,7 @@ import platformdirs
 
 from gestureapp import __version__
 from gestureapp.cell.engine import Cell
+from gestureapp.cell.snapshot import RecordingView
 from gestureapp.clock import monotonic
 from gestureapp.config import Settings
 from gestureapp.errors import ConfigError
@@ -86,11 +87,16 @@ def running_cell(
         recorder.start()
         opened.callback(recorder.stop)
         log_file = folder / "guardian.log"
-        cell = Cell(settings, recorder.put, lambda: recorder.status, log_file, time.time)
+        cell = Cell(settings, recorder.put, lambda: _view_of(recorder), log_file, time.time)
         opened.callback(cell.shutdown)
         cell.start()
         operator = emulators.operator if emulators is not None else None
         yield RunningCell(cell, operator, recorder, emulators)
+
+
+def _view_of(recorder: SessionWriter) -> RecordingView:
+    path = recorder.path
+    return RecordingView(recorder.is_recording, path.name if path else "", recorder.status)
 
 
 def describe(settings: Settings) -> dict[str, str]:

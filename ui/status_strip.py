@@ -100,7 +100,9 @@ class StatusStrip(QFrame):
             Chip(Level.OK if snapshot.model else Level.OFF, snapshot.model or "none")
         )
         self._recording.show_chip(
-            Chip(Level.OK if snapshot.recording else Level.OFF, snapshot.recording or "none")
+            Chip(Level.OK, snapshot.recording.file)
+            if snapshot.recording.is_on
+            else Chip(Level.ATTENTION, "not recorded")
         )
         line = strip_line(snapshot)
         if line != self._line.text():

@@ -94,16 +94,17 @@ def strip_line(snapshot: Snapshot) -> str:
     left = stream_chip(snapshot.left, snapshot.trip_level_s).reason
     right = stream_chip(snapshot.right, snapshot.trip_level_s).reason
     robot = robot_chip(snapshot.robot).reason
-    named = (("Left arm", left), ("Right arm", right), ("Robot", robot))
-    reasons = [f"{name}: {reason}" for name, reason in named if reason]
+    recording = "" if snapshot.recording.is_on else snapshot.recording.text
+    named = (("Left arm", left), ("Right arm", right), ("Robot", robot), ("", recording))
+    reasons = [f"{name}: {reason}" if name else reason for name, reason in named if reason]
     if reasons:
         return "   |   ".join(reasons)
     facts = (
         ("Robot", snapshot.robot.text),
         ("Model", snapshot.model),
-        ("Recording", snapshot.recording),
+        ("", snapshot.recording.text),
     )
-    return "   |   ".join(f"{name}: {fact}" for name, fact in facts if fact)
+    return "   |   ".join(f"{name}: {fact}" if name else fact for name, fact in facts if fact)
 
 
 def direction_text(direction: Direction) -> str:

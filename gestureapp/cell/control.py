@@ -24,7 +24,7 @@ from gestureapp.cell.machine import MachineState, Rules, step
 from gestureapp.cell.readiness import Facts, find_blockers
 from gestureapp.cell.records import Json, Record, Recorder, Topic, fields_of
 from gestureapp.cell.robot_memory import RobotMemory, direction_of, events_of, robot_fields
-from gestureapp.cell.snapshot import Blocker, CellState, EventLine, Snapshot
+from gestureapp.cell.snapshot import Blocker, CellState, EventLine, RecordingView, Snapshot
 from gestureapp.cell.words import sentence
 from gestureapp.clock import Clock
 from gestureapp.config import Settings
@@ -296,7 +296,7 @@ class Control:
             self._carry_out(effect)
         if self.state.state is not before.state:
             self._beat()
-        if (self.state.state, self.state.note) != (before.state, before.note):
+        if _shown(self.state) != _shown(before):
             self._tell_state()
 
     def _tell_state(self) -> None:
@@ -379,7 +379,11 @@ class Control:
             robot=self._robot.view(self._now_s),
             events=tuple(self._lines),
             is_simulation=settings.is_simulation,
-            recording="",
+            recording=RecordingView(),
             person=settings.person.name,
             model=self._model,
         )
+
+
+def _shown(s: MachineState) -> tuple[CellState, str, bool]:
+    return s.state, s.note, s.is_stop_unconfirmed

@@ -10,7 +10,7 @@ from gestureapp.cell.control import Control
 from gestureapp.cell.guardian_link import GuardianLink
 from gestureapp.cell.inputs import GuardianPort, GuardianSaid, SampleCame, SensorTold, ServoAsked
 from gestureapp.cell.records import Record, Recorder, Topic
-from gestureapp.cell.snapshot import Snapshot
+from gestureapp.cell.snapshot import RecordingView, Snapshot
 from gestureapp.clock import Clock, monotonic
 from gestureapp.config import DriveMode, RobotSettings, SensorSettings, Settings
 from gestureapp.errors import ConfigError, GuardianLost, ModelError, WorkerError
@@ -41,7 +41,7 @@ class Cell:
     Args:
         settings: Of the cell.
         record: Takes everything that happens; any thread.
-        recording_words: Where the session is recorded, or why it is not; polled by the window.
+        recording: How the recording is; polled with every picture.
         guardian_log: File for the guardian's own log, or None.
         clock: Monotonic seconds.
         wall_clock: Seconds since the epoch.
@@ -59,7 +59,7 @@ class Cell:
         self,
         settings: Settings,
         record: Recorder,
-        recording_words: Callable[[], str],
+        recording: Callable[[], RecordingView],
         guardian_log: Path | None,
         wall_clock: Clock,
         clock: Clock = monotonic,
@@ -67,7 +67,7 @@ class Cell:
         self.settings = settings
         self._limits = _checked_limits(settings)
         self.left, self.right = SampleStore(), SampleStore()
-        self._record, self._recording_words = record, recording_words
+        self._record, self._recording = record, recording
         self._guardian_log, self._clock = guardian_log, clock
         self._gui_s = clock()
         self._link: GuardianLink | None = None
@@ -100,7 +100,7 @@ class Cell:
 
     def snapshot(self) -> Snapshot:
         """The newest picture of the cell. Any thread."""
-        picture = replace(self._control.picture, recording=self._recording_words())
+        picture = replace(self._control.picture, recording=self._recording())
         age_s = self._clock() - picture.t_s
         if age_s > STALE_PICTURE_S and not self._is_closing:
             sentence = f"The control thread is silent for {age_s:.1f} s: restart the application."

@@ -46,6 +46,21 @@ class EventLine:
 
 
 @dataclass(frozen=True, slots=True)
+class RecordingView:
+    """Whether the session is recorded.
+
+    Attributes:
+        is_on: It is, and the disk keeps up.
+        file: Name of its file, or empty.
+        text: Where it is, or why it is not and what to do; one line.
+    """
+
+    is_on: bool = False
+    file: str = ""
+    text: str = "not recorded"
+
+
+@dataclass(frozen=True, slots=True)
 class RobotView:
     """The robot as last heard.
 
@@ -92,7 +107,7 @@ class Snapshot:
         robot: The robot as last heard.
         events: The last lines, newest last.
         is_simulation: No real robot can be reached.
-        recording: Where the session is recorded, or why it is not.
+        recording: Whether the session is recorded, and where.
         person: Whose arms.
         model: Which model, in words.
     """
@@ -112,6 +127,6 @@ class Snapshot:
     robot: RobotView
     events: tuple[EventLine, ...]
     is_simulation: bool
-    recording: str
+    recording: RecordingView
     person: str
     model: str

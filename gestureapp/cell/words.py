@@ -7,6 +7,11 @@ from gestureapp.config import DriveMode
 
 def sentence(s: MachineState, drive_mode: DriveMode) -> str:
     """One sentence for a person, under the one word."""
+    said = _sentence(s, drive_mode)
+    return said[:1].upper() + said[1:]
+
+
+def _sentence(s: MachineState, drive_mode: DriveMode) -> str:
     match s.state:
         case CellState.NOT_READY:
             count = len(s.blockers)
@@ -24,6 +29,8 @@ def sentence(s: MachineState, drive_mode: DriveMode) -> str:
             return f"{s.note}. Lower the left arm to stop."
         case CellState.MOVING:
             return f"{s.note}. Bring the left arm to the stop posture to stop."
+        case CellState.STOPPING if s.is_stop_unconfirmed:
+            return f"{s.note}. The robot has not confirmed that it stands; the stop is repeated."
         case CellState.STOPPING:
             return f"{s.note}. Waiting until the robot is read back to stand."
         case CellState.STOPPED:

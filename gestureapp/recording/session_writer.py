@@ -133,22 +133,36 @@ class SessionWriter:
         return self._backlog.dropped
 
     @property
+    def is_recording(self) -> bool:
+        """The file is open and the disk keeps up."""
+        is_well = self._worker.error is None and not self._failure and not self._is_closed
+        return is_well and self._path is not None and self._stalled_s() == 0.0
+
+    @property
     def status(self) -> str:
         """One line for the window: where the session is recorded, or why not and what to do."""
         if self._worker.error is not None:
             return f"Not recording: {self._worker.error}. Start the application again to record."
-        failure, busy_since_s = self._failure, self._busy_since_s
+        failure, stalled_s = self._failure, self._stalled_s()
         lost = _lost_text(self._backlog.dropped)
         if failure:
             return f"Not recording: {failure}.{lost}"
-        if busy_since_s is not None and self._clock() - busy_since_s > STALL_S:
+        if stalled_s:
             return (
-                f"Recording stalls: the disk has taken nothing for "
-                f"{self._clock() - busy_since_s:.0f} s; check the disk of {self._folder}.{lost}"
+                f"Recording stalls: the disk has taken nothing for {stalled_s:.0f} s; "
+                f"check the disk of {self._folder}.{lost}"
             )
         if self._path is None:
             return "Recording starts." if self._has_started else "Not recording: not started yet."
         return f"{'Recorded' if self._is_closed else 'Recording'} to {self._path}.{lost}"
+
+    def _stalled_s(self) -> float:
+        """How long the disk has taken nothing, once that is too long; else 0."""
+        busy_since_s = self._busy_since_s
+        if busy_since_s is None:
+            return 0.0
+        busy_s = self._clock() - busy_since_s
+        return busy_s if busy_s > STALL_S else 0.0
 
     # The recorder's thread.
 

@@ -282,6 +282,7 @@ def test_a_disk_that_is_full_to_the_end_costs_the_rest_and_says_so(
     assert "Not recorded: 1 decisions." in recorder.status
 
 
+@pytest.mark.logs_errors
 def test_a_record_that_is_no_json_is_counted_and_the_rest_is_written(
     recorder, clock, decision, tmp_path
 ):
@@ -333,6 +334,7 @@ def test_stopping_on_a_stalled_disk_returns_and_says_so(live, disk, decision, wa
     assert "Recording stalls" in writer.status
 
 
+@pytest.mark.logs_errors
 def test_a_recorder_that_breaks_says_so_and_counts_the_rest(tmp_path, clock, decision, wait_for):
     def broken(path):
         raise RuntimeError("a bug")

@@ -308,6 +308,7 @@ def test_rubbish_without_end_is_survived_and_the_next_line_read(server: socket.s
         assert bench.next(Sample).accel_g == (0.5, 0.0, 1.0)
 
 
+@pytest.mark.logs_errors
 def test_a_callback_that_raises_ends_the_reader_with_a_report_and_a_closed_port(
     caplog: pytest.LogCaptureFixture,
 ):

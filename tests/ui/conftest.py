@@ -14,6 +14,7 @@ from gestureapp.cell.snapshot import (
     Blocker,
     CellState,
     EventLine,
+    RecordingView,
     RobotView,
     Snapshot,
 )
@@ -82,7 +83,9 @@ def ready() -> Snapshot:
         ),
         events=(),
         is_simulation=True,
-        recording="sessions/2026-11-22_10-15-03.mcap",
+        recording=RecordingView(
+            True, "2026-11-22_10-15-03.mcap", "Recording to sessions/2026-11-22_10-15-03.mcap."
+        ),
         person="Operator 1",
         model="operator-1.json, 360 takes",
     )
