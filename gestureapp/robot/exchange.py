@@ -134,17 +134,18 @@ class Exchange:
             return events, b""
         return events, out
 
-    def withdraw(self) -> list[ExchangeEvent]:
+    def withdraw(self) -> LinkBroken | None:
         """Take back a request whose data has not gone out yet: the session ends with it.
 
         The controller awaits data now; ending the session is the only way not to send any.
         Reads and stops are not taken back.
         """
-        if self.phase is not Phase.HEADER_SENT or self.request is None:
-            return []
-        if self.request.data is None or self.request in HARMLESS or self.request.name == "RPOSC":
-            return []
-        return [self._break(f"{self.request.name} was taken back before its data went out")]
+        request = self.request
+        if self.phase is not Phase.HEADER_SENT or request is None or request.data is None:
+            return None
+        if request in HARMLESS or request.name == "RPOSC":
+            return None
+        return self._break(f"{request.name} was taken back before its data went out")
 
     def end(self, reason: str) -> list[ExchangeEvent]:
         """The stream has ended, or could not be opened."""

@@ -2,11 +2,12 @@
 
 ``0000`` means accepted, not finished, and "running" may rise a little after it. So a move has ended
 when the controller, asked after the acceptance, says not running, and either it was seen running,
-or the target is reached, or it has had time enough to start.
+or the target is reached, or it still says so after it has had time enough to start.
 """
 
 from dataclasses import dataclass
 
+from gestureapp.robot import messages as m
 from gestureapp.robot.gate import Command
 from gestureapp.robot.values import Pose, RobotStatus, StopReason
 
@@ -52,6 +53,25 @@ class Motion:
         self._pose: Pose | None = None
         self._pose_asked_s = float("-inf")
 
+    @property
+    def activation_id(self) -> int:
+        """Whose increment it is."""
+        return self.command.proposal.activation_id
+
+    @property
+    def report(self) -> m.CommandSent:
+        """What went out, not what was wanted."""
+        planned, command = self.command.plan, self.command
+        return m.CommandSent(
+            self.activation_id,
+            self.sent_s,
+            planned.start,
+            planned.increment,
+            planned.limited_by,
+            command.speed,
+            command.proposal.direction.is_rotation,
+        )
+
     def accepted(self, now_s: float) -> None:
         """The controller has said ``0000``."""
         self._accepted_s = now_s
@@ -63,7 +83,7 @@ class Motion:
         if status.is_running:
             self._was_running = True
             self._idle_asked_s = None
-        elif self._idle_asked_s is None:
+        else:
             self._idle_asked_s = asked_s
 
     def note_pose(self, pose: Pose, asked_s: float) -> None:
@@ -84,7 +104,7 @@ class Motion:
         missing = self._missing(self._pose)
         if not missing:
             return Reached(self._pose)
-        if not self._was_running and now_s - self._accepted_s < START_LIMIT_S:
+        if not self._was_running and self._idle_asked_s - self._accepted_s < START_LIMIT_S:
             return None
         return StoppedShort(StopReason.ROBOT_CHANGED, f"the robot stands {missing} before the end")
 

@@ -8,10 +8,12 @@ from enum import Enum
 
 from gestureapp.robot import nx100
 from gestureapp.robot.nx100 import Answer, Failure, Request
-from gestureapp.robot.values import Pose, RobotStatus
+from gestureapp.robot.values import RobotStatus
 
 WATCH_S = 0.5
 """How long after the release the state is read often."""
+RETRY_S = 0.5
+"""A release that failed is not tried again before this: reading the state must get its turn."""
 
 
 class _Phase(Enum):
@@ -21,12 +23,16 @@ class _Phase(Enum):
     READ_BACK = 3
 
 
+_AWAITED = {_Phase.READ_POSE: "RPOSC", _Phase.SEND: "HOLD", _Phase.READ_BACK: "RSTATS"}
+
+
 class Release:
     """One release at a time. Owned by the supervisor."""
 
     def __init__(self) -> None:
         self._phase = _Phase.NONE
         self._released_s = float("-inf")
+        self._failed_s = float("-inf")
         self._is_done = False
 
     @property
@@ -37,6 +43,10 @@ class Release:
     def is_watching(self, now_s: float) -> bool:
         """Released a moment ago: a robot that runs now does so without a command."""
         return now_s - self._released_s < WATCH_S
+
+    def may_begin(self, now_s: float) -> bool:
+        """None is under way, and none has failed a moment ago."""
+        return not self.is_active and now_s - self._failed_s >= RETRY_S
 
     def begin(self) -> None:
         """Release the hold."""
@@ -56,15 +66,25 @@ class Release:
 
     def answered(self, request: Request, answer: Answer, now_s: float) -> None:
         """An answer has come."""
-        if self._phase is _Phase.READ_POSE and isinstance(answer, Pose):
+        is_refused = isinstance(answer, Failure)
+        if request == nx100.HOLD_OFF and not is_refused:
+            self._released_s = now_s  # also when a stop or a disarm has come between
+        if request.name != _AWAITED.get(self._phase):
+            return
+        if is_refused:
+            self._fail(now_s)
+        elif self._phase is _Phase.READ_POSE:
             self._phase = _Phase.SEND
-        elif self._phase is _Phase.SEND and request == nx100.HOLD_OFF:
-            is_refused = isinstance(answer, Failure)
-            self._phase = _Phase.NONE if is_refused else _Phase.READ_BACK
-            self._released_s = now_s
-        elif self._phase is _Phase.READ_BACK and isinstance(answer, RobotStatus):
-            self._is_done = not answer.is_held_by_command
-            self._phase = _Phase.NONE
+        elif self._phase is _Phase.SEND:
+            self._phase = _Phase.READ_BACK
+        elif isinstance(answer, RobotStatus) and not answer.is_held_by_command:
+            self._phase, self._is_done = _Phase.NONE, True
+        else:
+            self._fail(now_s)
+
+    def _fail(self, now_s: float) -> None:
+        self._phase = _Phase.NONE
+        self._failed_s = now_s
 
     def take_done(self) -> bool:
         """Whether a release has just been read back; says so once."""

@@ -13,8 +13,14 @@ from gestureapp.robot.values import Pose, RobotStatus, StopReason
 
 REPEAT_S = 0.25
 """HOLD is sent again this often while the robot is not known to stand."""
+READS = 2
+"""State and position are read between two stops, however slow the answers are: a controller that
+needs longer than the repeat could otherwise never confirm, and servo off would never get a turn."""
 ESCALATE_S = 0.6
-"""Still moving after this: servo off. HOLD from 250 mm/s takes about 0.3 s on the emulator."""
+"""Still moving after this: servo off."""
+SLOWING_S = 0.3
+"""HOLD from 250 mm/s takes about this on the emulator: a HOLD that could only be sent late, on a
+new session, has so much time before servo off."""
 UNCONFIRMED_S = 1.0
 """No standstill read back after this: the operator is told to use the hardware."""
 STILL_MM = 0.05
@@ -47,6 +53,7 @@ class Unconfirmed:
 class _Evidence:
     """What is known since the stop was asked for."""
 
+    first_hold_s: float = float("inf")
     hold_sent_s: float = float("-inf")
     servo_off_sent_s: float = float("-inf")
     is_held: bool = False
@@ -55,6 +62,9 @@ class _Evidence:
     newest: tuple[Pose, float] | None = None
     still: Pose | None = None
     read_pose_next: bool = False
+    n_reads: int = READS
+    n_told: int = 0
+    counts: bool = False
     told: bool = False
 
 
@@ -89,24 +99,30 @@ class StopPath:
 
     def next_request(self, now_s: float, frame: int) -> Request:
         """What to send next while the stop is under way."""
-        if now_s - self._seen.hold_sent_s >= REPEAT_S:
-            return nx100.HOLD_ON
-        overdue = now_s - self.asked_s >= ESCALATE_S
-        if overdue and now_s - self._seen.servo_off_sent_s >= REPEAT_S:
+        seen = self._seen
+        hold_is_due = now_s - seen.hold_sent_s >= REPEAT_S and seen.n_reads >= READS
+        off_is_due = now_s - seen.servo_off_sent_s >= REPEAT_S and self._must_escalate(now_s)
+        if off_is_due and not (hold_is_due and seen.hold_sent_s <= seen.servo_off_sent_s):
             return nx100.SERVO_OFF
-        self._seen.read_pose_next = not self._seen.read_pose_next
-        return nx100.read_pose(frame) if self._seen.read_pose_next else nx100.READ_STATUS
+        if hold_is_due:
+            return nx100.HOLD_ON
+        seen.read_pose_next = not seen.read_pose_next
+        return nx100.read_pose(frame) if seen.read_pose_next else nx100.READ_STATUS
 
     def sent(self, request: Request, now_s: float) -> None:
         """A request has gone out."""
+        self._seen.counts = True
         if request == nx100.HOLD_ON:
-            self._seen.hold_sent_s = now_s
+            self._seen.first_hold_s = min(self._seen.first_hold_s, now_s)
+            self._seen.hold_sent_s, self._seen.n_reads = now_s, 0
         elif request == nx100.SERVO_OFF:
-            self._seen.servo_off_sent_s = now_s
+            self._seen.servo_off_sent_s, self._seen.n_reads = now_s, 0
+        else:
+            self._seen.n_reads += 1
 
-    def answered(self, request: Request, answer: Answer, sent_s: float, now_s: float) -> None:
+    def answered(self, request: Request, answer: Answer, now_s: float) -> None:
         """An answer has come; only what was asked after the stop counts."""
-        if self.reason is None or sent_s < self.asked_s:
+        if self.reason is None or not self._seen.counts:
             return
         if request.is_hold:
             self._seen.is_held = self._seen.is_held or isinstance(answer, Done)
@@ -119,7 +135,9 @@ class StopPath:
 
     def link_broken(self) -> None:
         """The line was lost: HOLD is the first request on the next one, and nothing is known."""
-        self._seen.hold_sent_s = float("-inf")
+        self._seen.hold_sent_s = self._seen.servo_off_sent_s = float("-inf")
+        self._seen.first_hold_s = float("inf")
+        self._seen.n_reads, self._seen.n_told = READS, 0
         self._seen.is_held = False
         self._seen.not_running_since_s = None
         self._seen.still = None
@@ -139,7 +157,16 @@ class StopPath:
             return Unconfirmed(self.reason, text)
         return None
 
+    def _must_escalate(self, now_s: float) -> bool:
+        """HOLD has had its time, and was refused or did not bring the robot to a stand."""
+        seen = self._seen
+        if now_s - self.asked_s < ESCALATE_S or now_s - seen.first_hold_s < SLOWING_S:
+            return False
+        is_running = seen.n_told >= READS and seen.not_running_since_s is None
+        return not seen.is_held or is_running or seen.n_told >= 2 * READS
+
     def _note_status(self, status: RobotStatus, now_s: float) -> None:
+        self._seen.n_told += 1
         if status.is_running:
             self._seen.not_running_since_s = None
             self._seen.still = None
@@ -147,6 +174,7 @@ class StopPath:
             self._seen.not_running_since_s = now_s
 
     def _note_pose(self, pose: Pose, now_s: float) -> None:
+        self._seen.n_told += 1
         if self._seen.newest is None:
             self._seen.newest = (pose, now_s)
             return

@@ -20,7 +20,6 @@ from gestureapp.robot.gate import (
     arm_blocker,
     decide,
     permit,
-    robot_blocker,
 )
 from gestureapp.robot.motion import Motion, Reached, StoppedShort
 from gestureapp.robot.nx100 import Alarms, Failure, Request
@@ -30,7 +29,7 @@ from gestureapp.robot.readings import Readings
 from gestureapp.robot.release import Release
 from gestureapp.robot.stopping import Standstill, StopPath
 from gestureapp.robot.values import Pose, Refusal, RobotStatus, StopReason
-from gestureapp.robot.watchdog import find_stale
+from gestureapp.robot.watchdog import Cause, find_change, find_left_end, find_stale
 
 DECIDING_S = 0.3
 """A decision follows the left arm's start within the 160 ms budget; the line is kept
@@ -61,6 +60,7 @@ class Supervisor:
         self._polling = Polling(limits.frame)
         self._command: Command | None = None
         self._servo_wanted = False
+        self._refused: dict[Request, str] = {}
         self._arming_until_s: float | None = None
         self._beat: m.Beat | None = None
         self._start_seen_s = float("-inf")
@@ -111,6 +111,7 @@ class Supervisor:
 
     def robot_bytes(self, data: bytes, now_s: float) -> None:
         """Bytes from the controller."""
+        self._watch(now_s)  # the data of a move may leave now
         events, out = self._exchange.receive(data, now_s)
         if out:
             self._outputs.append(ToRobot(out))
@@ -122,6 +123,8 @@ class Supervisor:
         events = self._exchange.end(reason)
         if not events and reason != self._link_text:
             self._tell_link(False, reason)
+        if not events and self.is_armed:
+            self.stop(StopReason.LINK_LOST, reason, now_s)
         self._handle(events, now_s)
 
     # Inputs from the application's side.
@@ -145,7 +148,7 @@ class Supervisor:
             case m.Disarm():
                 self._disarm(now_s)
             case m.ServoOn():
-                self._servo_wanted = not self.is_armed
+                self._ask_servo()
         self.tick(now_s)
 
     def stop(self, reason: StopReason, text: str, now_s: float) -> None:
@@ -155,9 +158,11 @@ class Supervisor:
         self._release.cancel()
         if reason.is_latched:
             self.latch = self.latch or reason
-            self._lose_permission()
+            self._lose_permission(text)
         if self._stop.ask(reason, now_s):
             self._tell(m.StopAsked(reason, text, now_s))
+        if (withdrawn := self._exchange.withdraw()) is not None:
+            self._forget_robot(withdrawn.reason)
 
     def tick(self, now_s: float) -> None:
         """Look at every clock, then use the line if it is free."""
@@ -165,7 +170,7 @@ class Supervisor:
         self._watch(now_s)
         self._check_stop(now_s)
         self._check_motion(now_s)
-        self._check_release()
+        self._check_release(now_s)
         self._check_arming(now_s)
         if self._exchange.can_send:
             self._send_next(now_s)
@@ -197,13 +202,25 @@ class Supervisor:
     def _disarm(self, now_s: float) -> None:
         if self._motion is not None or self._command is not None:
             self.stop(StopReason.DISARMED, "disarmed while the robot was moving", now_s)
-        self._lose_permission()
+        self._lose_permission("disarmed")
 
-    def _lose_permission(self) -> None:
-        self._arming_until_s = None
+    def _lose_permission(self, text: str) -> None:
+        self._release.cancel()
+        if self._arming_until_s is not None:
+            self._arming_until_s = None
+            self._tell(m.ArmRefused(Refusal("given_up", text)))
         if self.is_armed:
             self.is_armed = False
             self._tell(m.Disarmed())
+
+    def _ask_servo(self) -> None:
+        """Now or not at all: servo power never comes on later, when nobody expects it."""
+        allowed = permit(nx100.SERVO_ON, self._view())
+        if not self._exchange.is_open:
+            allowed = Refusal("no_link", "the robot does not answer")
+        self._servo_wanted = isinstance(allowed, Permit)
+        if isinstance(allowed, Refusal):
+            self._tell(m.Notice(f"servo power was not switched on: {allowed.text}"))
 
     # The heartbeat and the watchdogs.
 
@@ -211,6 +228,8 @@ class Supervisor:
         if beat.is_left_start and not (self._beat and self._beat.is_left_start):
             self._start_seen_s = now_s
         self._beat = beat
+        if self._motion is not None and not self._stop.is_active:
+            self._stop_for(find_left_end(beat, self.limits), now_s)
 
     def _watch(self, now_s: float) -> None:
         if self._stop.is_active and self._stop.reason is not StopReason.LEFT_ARM:
@@ -218,9 +237,11 @@ class Supervisor:
         if not (self.is_armed or self._motion is not None):
             return
         if self._beat is not None:
-            stale = find_stale(self._beat, self.limits, now_s)
-            if stale is not None:
-                self.stop(stale.reason, stale.text, now_s)
+            self._stop_for(find_stale(self._beat, self.limits, now_s), now_s)
+
+    def _stop_for(self, cause: Cause | None, now_s: float) -> None:
+        if cause is not None:
+            self.stop(cause.reason, cause.text, now_s)
 
     # Commands.
 
@@ -258,20 +279,9 @@ class Supervisor:
             self._tell(m.CommandRefused(command.proposal.activation_id, again))
             return
         self._motion = Motion(again, now_s)
-        self._last_activation_id = again.proposal.activation_id
+        self._last_activation_id = self._motion.activation_id
         self._send(again.permit, now_s)
-        planned = again.plan
-        self._tell(
-            m.CommandSent(
-                again.proposal.activation_id,
-                now_s,
-                planned.start,
-                planned.increment,
-                planned.limited_by,
-                again.speed,
-                again.proposal.direction.is_rotation,
-            )
-        )
+        self._tell(self._motion.report)
 
     # The wire.
 
@@ -306,7 +316,9 @@ class Supervisor:
         self._send(allowed, now_s)
 
     def _send(self, allowed: Permit, now_s: float) -> None:
-        self._outputs.append(ToRobot(self._exchange.send(allowed, now_s)))
+        self._outputs.append(
+            ToRobot(self._exchange.send(allowed, now_s, is_stopping=self._stop.is_active))
+        )
         self._sent_s = now_s
         self._stop.sent(allowed.request, now_s)
 
@@ -324,7 +336,7 @@ class Supervisor:
                     self._link_broken(event, now_s)
 
     def _answered(self, event: Answered, now_s: float) -> None:
-        self._stop.answered(event.request, event.answer, self._sent_s, now_s)
+        self._stop.answered(event.request, event.answer, now_s)
         self._release.answered(event.request, event.answer, now_s)
         match event.answer:
             case RobotStatus():
@@ -335,15 +347,27 @@ class Supervisor:
                 self._read.alarms = event.answer.codes
                 self._report_status(now_s)
             case Failure() if event.request.name != "IMOV":
-                self._tell(m.Notice(f"the robot refused {event.request}: {event.answer.words}"))
+                self._refusal_came(event.request, event.answer.words, now_s)
         if event.request.name == "IMOV":
             self._command_answered(event, now_s)
+        elif not isinstance(event.answer, Failure):
+            self._refused.pop(event.request, None)
+
+    def _refusal_came(self, request: Request, words: str, now_s: float) -> None:
+        """Told once until it is taken again; without reads nobody knows what the robot does."""
+        text = f"the robot refused {request}: {words}"
+        if self._refused.get(request) != text:
+            self._refused[request] = text
+            self._tell(m.Notice(text))
+        is_read = request == nx100.READ_STATUS or request.name == "RPOSC"
+        if is_read and self.may_move and not self._stop.is_active:
+            self.stop(StopReason.ROBOT_CHANGED, text, now_s)
 
     def _command_answered(self, event: Answered, now_s: float) -> None:
         motion = self._motion
         if motion is None:
             return
-        activation_id = motion.command.proposal.activation_id
+        activation_id = motion.activation_id
         if isinstance(event.answer, Failure):
             self._motion = None
             refusal = Refusal("robot_refused", f"the robot refused: {event.answer.words}")
@@ -367,16 +391,13 @@ class Supervisor:
         """A robot that changes by itself while it may move is stopped, latched."""
         if self._stop.is_active:
             return
-        may_move = self.is_armed or self._motion is not None
-        if status.is_running and self._motion is None and (may_move or self._release.is_active):
-            text = "the robot runs without a command of ours; it is held again"
-            self.stop(StopReason.UNEXPECTED_MOTION, text, now_s)
-        elif may_move and (status.has_alarm or status.has_error):
-            self.stop(StopReason.ROBOT_ALARM, "the robot has an alarm", now_s)
-        elif may_move:
-            refusal = robot_blocker(status, ignore_own_hold=self._motion is None)
-            if refusal is not None and refusal.reason != "running":
-                self.stop(StopReason.ROBOT_CHANGED, refusal.text, now_s)
+        change = find_change(
+            status,
+            is_commanded=self._motion is not None,
+            may_move=self.may_move,
+            may_resume=self._arming_until_s is not None or self._release.is_watching(now_s),
+        )
+        self._stop_for(change, now_s)
 
     def _take_pose(self, pose: Pose, now_s: float) -> None:
         self._read.pose, self._read.pose_s = pose, now_s
@@ -391,13 +412,19 @@ class Supervisor:
             self._tell(m.StatusReport(now_s, status.data_1, status.data_2, alarms))
 
     def _link_broken(self, event: LinkBroken, now_s: float) -> None:
-        self._outputs.append(DropRobot(event.reason))
-        self._tell_link(False, event.reason)
-        self._read = Readings()
-        self._stop.link_broken()
-        if self.is_armed or self._motion is not None or self._release.is_active:
+        may_resume = self._release.is_active or self._release.is_watching(now_s)
+        self._forget_robot(event.reason)
+        if self.is_armed or self._motion is not None or may_resume:
             self.stop(StopReason.LINK_LOST, event.reason, now_s)
-        self._lose_permission()
+        self._lose_permission(event.reason)
+
+    def _forget_robot(self, reason: str) -> None:
+        """The session is over: nothing that was read counts any more."""
+        self._outputs.append(DropRobot(reason))
+        self._tell_link(False, reason)
+        self._read = Readings()
+        self._servo_wanted = False
+        self._stop.link_broken()
 
     # What the clocks say.
 
@@ -415,18 +442,18 @@ class Supervisor:
         if self._motion is None or self._stop.is_active:
             return
         outcome = self._motion.check(now_s)
-        activation_id = self._motion.command.proposal.activation_id
+        activation_id = self._motion.activation_id
         if isinstance(outcome, Reached):
             self._motion = None
             self._tell(m.MotionEnded(activation_id, outcome.pose))
         elif isinstance(outcome, StoppedShort):
             self.stop(outcome.reason, outcome.text, now_s)
 
-    def _check_release(self) -> None:
+    def _check_release(self, now_s: float) -> None:
         """After the left arm's own stop the hold is released, once that arm is back in stop."""
         if self._release.take_done():
             self._tell(m.HoldReleased())
-        is_free = not (self._stop.is_active or self._release.is_active or self._motion)
+        is_free = not (self._stop.is_active or self._motion) and self._release.may_begin(now_s)
         is_left_stop = self._beat is not None and self._beat.is_left_stop
         if self.is_armed and is_free and is_left_stop and self._read.is_held_by_command:
             self._release.begin()

@@ -1,4 +1,4 @@
-"""The watchdogs: is the newest left sample, control tick or window tick too old? Pure.
+"""What makes the guardian stop by itself: silence, the left arm, a robot that changes. Pure.
 
 Ages are taken on the monotonic clock that all processes of a machine share; a time in the future is
 as bad as an old one.
@@ -6,20 +6,20 @@ as bad as an old one.
 
 from dataclasses import dataclass
 
-from gestureapp.robot.gate import AHEAD_S, Limits
+from gestureapp.robot.gate import AHEAD_S, Limits, robot_blocker
 from gestureapp.robot.messages import Beat
-from gestureapp.robot.values import StopReason
+from gestureapp.robot.values import RobotStatus, StopReason
 
 
 @dataclass(frozen=True, slots=True)
-class Stale:
-    """Something was silent for too long, with the measured time in words."""
+class Cause:
+    """Why to stop, in words for a person."""
 
     reason: StopReason
     text: str
 
 
-def find_stale(beat: Beat, limits: Limits, now_s: float) -> Stale | None:
+def find_stale(beat: Beat, limits: Limits, now_s: float) -> Cause | None:
     """The first thing that is too old, the left sensor before the rest."""
     for t_s, limit_s, reason in (
         (beat.left_s, limits.trip_level_s, StopReason.LEFT_SILENT),
@@ -29,5 +29,36 @@ def find_stale(beat: Beat, limits: Limits, now_s: float) -> Stale | None:
         age_s = now_s - t_s
         if not -AHEAD_S <= age_s <= limit_s:
             text = f"{reason.value} for {age_s * 1000:.0f} ms, limit {limit_s * 1000:.0f} ms"
-            return Stale(reason, text)
+            return Cause(reason, text)
     return None
+
+
+def find_left_end(beat: Beat, limits: Limits) -> Cause | None:
+    """Whether the left arm ends a move: in hold-to-run by leaving start, else by taking stop."""
+    if beat.is_left_stop or (limits.is_hold_to_run and not beat.is_left_start):
+        return Cause(StopReason.LEFT_ARM, "the left arm stopped it")
+    return None
+
+
+def find_change(
+    status: RobotStatus, *, is_commanded: bool, may_move: bool, may_resume: bool
+) -> Cause | None:
+    """Whether the robot does something nobody asked for, or can no longer do what was asked.
+
+    Args:
+        status: As just read.
+        is_commanded: A move of ours is open.
+        may_move: Armed, or a move is open.
+        may_resume: A hold is being or was just released.
+    """
+    if status.is_running and not is_commanded and (may_move or may_resume):
+        text = "the robot runs without a command of ours; it is held again"
+        return Cause(StopReason.UNEXPECTED_MOTION, text)
+    if not may_move:
+        return None
+    if status.has_alarm or status.has_error:
+        return Cause(StopReason.ROBOT_ALARM, "the robot has an alarm")
+    refusal = robot_blocker(status, ignore_own_hold=not is_commanded)
+    if refusal is None or refusal.reason == "running":
+        return None
+    return Cause(StopReason.ROBOT_CHANGED, refusal.text)
