@@ -12,7 +12,7 @@ from gestureapp.robot.values import Direction, Pose
 from gestureapp.robot.workspace import FieldOfOperation
 
 FIELD = FieldOfOperation(1200.0, 500.0, 20.0, ((120.0, 240.0), (-60.0, 60.0), (-90.0, 90.0)), 2.0)
-LIMITS = Limits(FIELD, 100.0, 10.0, 1, 0, True, 0.125, 0.2, 0.5)
+LIMITS = Limits(FIELD, 100.0, 10.0, 1, 0, True, 0.125, 0.25, 0.5)
 BANNER = b"OK: NX Information Server( 1.07) Keep-Alive:-1.\r\n"
 TICK_S = 0.005
 START_S = 100.0
@@ -321,7 +321,7 @@ def new_robot():
 
 @pytest.fixture(scope="session")
 def limits():
-    """Trip level 125 ms, control 200 ms, window 500 ms; 100 mm/s and 10 deg/s; hold-to-run."""
+    """Trip level 125 ms, control 250 ms, window 500 ms; 100 mm/s and 10 deg/s; hold-to-run."""
     return LIMITS
 
 
