@@ -9,6 +9,7 @@ from dataclasses import dataclass
 
 from gestureapp.robot import messages as m
 from gestureapp.robot.gate import Command
+from gestureapp.robot.stopping import is_same_place
 from gestureapp.robot.values import Pose, RobotStatus, StopReason
 
 START_LIMIT_S = 0.3
@@ -42,11 +43,13 @@ class Motion:
     Attributes:
         command: What was let through.
         sent_s: When its header went out.
+        seems_ended: The last two positions are one: ask whether it still runs.
     """
 
     def __init__(self, command: Command, sent_s: float) -> None:
         self.command = command
         self.sent_s = sent_s
+        self.seems_ended = False
         self._accepted_s: float | None = None
         self._was_running = False
         self._idle_asked_s: float | None = None
@@ -88,6 +91,7 @@ class Motion:
 
     def note_pose(self, pose: Pose, asked_s: float) -> None:
         """A position that was asked for at this time."""
+        self.seems_ended = self._pose is not None and is_same_place(self._pose, pose)
         self._pose, self._pose_asked_s = pose, asked_s
 
     def check(self, now_s: float) -> Reached | StoppedShort | None:

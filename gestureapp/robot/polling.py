@@ -1,7 +1,9 @@
 """What to read from the controller, and how often, while nothing more urgent waits. Pure.
 
-While the cell decides what a gesture was, RSTATS is left out: the answer to it comes late on
-controllers that pause before it, and a move would wait behind it. Missed reads are never caught up.
+A stop waits for one outstanding answer at the most. RSTATS is the slow one on controllers that
+pause before it, so a moving robot is followed by its position, and its state is read often only
+once it seems to have come to its end. While the cell decides what a gesture was, RSTATS is left out
+altogether: a move would wait behind it. Missed reads are never caught up.
 """
 
 from enum import Enum
@@ -17,7 +19,8 @@ class Pace(Enum):
     ARMED = (0.25, 0.1)
     DECIDING = (float("inf"), 0.05)
     WATCHING = (0.1, 0.1)
-    MOVING = (0.2, 0.05)
+    MOVING = (0.4, 0.05)
+    ENDING = (0.1, 0.05)
 
     @property
     def status_s(self) -> float:

@@ -29,8 +29,19 @@ from gestureapp.robot.readings import Readings
 from gestureapp.robot.release import Release
 from gestureapp.robot.stopping import Standstill, StopPath
 from gestureapp.robot.values import Pose, Refusal, RobotStatus, StopReason
-from gestureapp.robot.watchdog import Cause, find_change, find_left_end, find_stale
+from gestureapp.robot.watchdog import (
+    Cause,
+    find_change,
+    find_left_end,
+    find_stale,
+    next_stale_s,
+)
 
+TICK_S = 0.005
+IDLE_TICK_S = 0.02
+"""How often the clocks are looked at while something may move, and otherwise."""
+JUST_OVER_S = 0.0002
+"""A watchdog trips above its limit, not on it."""
 DECIDING_S = 0.3
 """A decision follows the left arm's start within the 160 ms budget; the line is kept
 free meanwhile."""
@@ -99,9 +110,13 @@ class Supervisor:
 
     def next_due_s(self, now_s: float) -> float:
         """When ``tick`` has something to do at the latest."""
-        if self.is_armed or self._stop.is_active or self._motion is not None:
-            return min(now_s + 0.005, self._exchange.deadline_s)
-        return min(now_s + 0.02, self._exchange.deadline_s)
+        if not (self.is_armed or self._stop.is_active or self._motion is not None):
+            return min(now_s + IDLE_TICK_S, self._exchange.deadline_s)
+        due_s = min(now_s + TICK_S, self._exchange.deadline_s)
+        if self._beat is None:
+            return due_s
+        stale_s = next_stale_s(self._beat, self.limits) + JUST_OVER_S
+        return min(due_s, stale_s) if stale_s > now_s else due_s
 
     # Inputs from the robot's side.
 
@@ -300,7 +315,7 @@ class Supervisor:
 
     def _pace(self, now_s: float) -> Pace:
         if self._motion is not None:
-            return Pace.MOVING
+            return Pace.ENDING if self._motion.seems_ended else Pace.MOVING
         if self.is_armed and now_s - self._start_seen_s < DECIDING_S:
             return Pace.DECIDING
         if self._release.is_watching(now_s):

@@ -33,6 +33,15 @@ def find_stale(beat: Beat, limits: Limits, now_s: float) -> Cause | None:
     return None
 
 
+def next_stale_s(beat: Beat, limits: Limits) -> float:
+    """When something will be too old, if nothing new comes; monotonic seconds."""
+    return min(
+        beat.left_s + limits.trip_level_s,
+        beat.control_s + limits.control_limit_s,
+        beat.gui_s + limits.gui_limit_s,
+    )
+
+
 def find_left_end(beat: Beat, limits: Limits) -> Cause | None:
     """Whether the left arm ends a move: in hold-to-run by leaving start, else by taking stop."""
     if beat.is_left_stop or (limits.is_hold_to_run and not beat.is_left_start):
