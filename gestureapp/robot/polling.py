@@ -1,8 +1,8 @@
 """What to read from the controller, and how often, while nothing more urgent waits. Pure.
 
 A stop waits for one outstanding answer at the most. RSTATS is the slow one on controllers that
-pause before it, so a moving robot is followed by its position, and its state is read often only
-once it seems to have come to its end. While the cell decides what a gesture was, RSTATS is left out
+pause before it, so a moving robot is followed by its position: whoever stops it, it stops changing,
+and then its state is read at once. While the cell decides what a gesture was, RSTATS is left out
 altogether: a move would wait behind it. Missed reads are never caught up.
 """
 
@@ -19,7 +19,7 @@ class Pace(Enum):
     ARMED = (0.25, 0.1)
     DECIDING = (float("inf"), 0.05)
     WATCHING = (0.1, 0.1)
-    MOVING = (0.4, 0.05)
+    MOVING = (2.5, 0.05)
     ENDING = (0.1, 0.05)
 
     @property
