@@ -20,6 +20,7 @@ from gestureapp.recognition.paper import PaperRecogniser
 from gestureapp.recognition.values import Recogniser
 from gestureapp.robot.gate import Limits
 from gestureapp.robot.workspace import FieldOfOperation
+from gestureapp.sensing.posture import PostureDetector
 from gestureapp.sensing.reader import SensorReader
 from gestureapp.sensing.store import SampleStore
 from gestureapp.sensing.values import Garbage, Sample, SensorEvent, Side
@@ -234,7 +235,9 @@ def limits_of(settings: Settings) -> Limits:
 
 
 def _checked_limits(settings: Settings) -> Limits:
+    site = settings.site
     try:
+        PostureDetector(site.posture_enter_deg, site.posture_leave_deg, site.posture_debounce)
         return limits_of(settings)
     except ValueError as error:
         raise ConfigError("robot and site settings", "as given", str(error)) from error

@@ -284,9 +284,8 @@ def _stop(s: MachineState, event: StopTaken | StopDone | StopOpen) -> Step:
             after = CellState.STOPPED if reason.is_latched else CellState.ARMED
             return _enter(s, after, event.t_s, s.note), (Say("the robot stands, read back"),)
         case StopOpen() if s.state is CellState.STOPPING:
-            note = f"{s.note}; {event.text}"
             said = Say(f"the robot has not confirmed the stop: {event.text}", is_alarm=True)
-            return replace(s, is_stop_unconfirmed=True, note=note), (said,)
+            return replace(s, is_stop_unconfirmed=True), (said,)
     return s, ()
 
 

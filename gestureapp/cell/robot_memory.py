@@ -9,6 +9,8 @@ from gestureapp.gestures import Kind, gesture
 from gestureapp.robot import messages as m
 from gestureapp.robot.values import Direction, Pose, PoseIncrement, RobotStatus
 
+_NO_ADDRESS = "no robot address is set"
+
 
 class RobotMemory:
     """The robot as last heard. Owned by the control thread.
@@ -24,7 +26,7 @@ class RobotMemory:
 
     def __init__(self, address: str) -> None:
         self.is_open = False
-        self.text = "not connected yet" if address else "no robot address is set"
+        self.text = "not connected yet" if address else _NO_ADDRESS
         self.status: RobotStatus | None = None
         self.status_s = float("-inf")
         self.pose: Pose | None = None
@@ -40,7 +42,8 @@ class RobotMemory:
         """Take what the guardian tells about the robot."""
         match message:
             case m.LinkReport():
-                self.is_open, self.text = message.is_open, message.text
+                self.is_open = message.is_open
+                self.text = message.text if self._address else _NO_ADDRESS
                 if not message.is_open:
                     self.status = None
             case m.StatusReport():

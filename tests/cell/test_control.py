@@ -64,7 +64,7 @@ def test_the_picture_shows_what_was_recognised_and_commanded(desk):
     assert picture.direction == Direction(0, +1, False)
     assert picture.robot.increment is not None
     assert (picture.robot.limited_by, picture.robot.speed) == ("the field", "100.0 mm/s")
-    assert picture.sentence == "recognised X+. Lower the left arm to stop."
+    assert picture.sentence == "Recognised X+. Lower the left arm to stop."
 
 
 def test_the_end_of_the_increment_leaves_the_cell_armed_but_the_arm_must_come_back_first(desk):
@@ -358,7 +358,7 @@ def test_a_stop_for_an_alarm_stands_in_the_record_with_its_reason(desk):
     stopping = [
         r.fields["sentence"] for r in desk.of(Topic.STATE) if r.fields["state"] == "STOPPING"
     ]
-    assert stopping[-1].startswith("the robot has an alarm.")
+    assert stopping[-1].startswith("The robot has an alarm.")
     assert desk.control.state.stop_reason is StopReason.ROBOT_ALARM
 
 
