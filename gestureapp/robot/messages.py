@@ -7,7 +7,6 @@ is a value (``None``), never an exception.
 import dataclasses
 import json
 import math
-import types
 import typing
 from dataclasses import dataclass
 from enum import Enum
@@ -257,7 +256,7 @@ def decode(line: bytes) -> Message | None:
         fields = json.loads(line)
         cls = _CLASSES[fields.pop("is")]
         message = _build(cls, fields)
-    except (ValueError, TypeError, KeyError, AttributeError, RecursionError):
+    except (ValueError, TypeError, KeyError, AttributeError, OverflowError, RecursionError):
         return None
     return typing.cast("Message", message)
 
@@ -278,8 +277,6 @@ def _build(kind: Any, value: Any) -> Any:  # noqa: ANN401  the edge: anything ma
         return kind(value)
     if typing.get_origin(kind) is tuple:
         return _build_tuple(typing.get_args(kind), value)
-    if isinstance(kind, types.UnionType):
-        return None if value is None else _build(typing.get_args(kind)[0], value)
     return _build_plain(kind, value)
 
 
