@@ -74,8 +74,10 @@ def _sensor_blockers(facts: Facts) -> Iterator[Blocker]:
                 cause, remedy = health.reason, "check the sensor and its port"
             yield Blocker(f"{side}_sensor", f"{side} sensor: {cause}", remedy)
     if facts.left.is_ok and (facts.stop_seen_s is None or facts.stop_seen_s < facts.stop_wanted_s):
-        seen_s = facts.stop_seen_s or 0.0
-        text = f"left arm seen in the stop posture for {seen_s:.1f} of {facts.stop_wanted_s:.1f} s"
+        text = "left arm is not in the stop posture"
+        if facts.stop_seen_s is not None:
+            times = f"{facts.stop_seen_s:.1f} s, {facts.stop_wanted_s:.1f} s are needed"
+            text = f"left arm is in the stop posture for {times}"
         yield Blocker("left_stop", text, "hold the left arm level")
 
 
