@@ -63,8 +63,8 @@ CASES = {
         "right_sensor",
         "right sensor: no data",
     ),
-    "not in stop": (replace(READY, stop_seen_s=None), "left_stop", "0.0 of 0.5 s"),
-    "too short in stop": (replace(READY, stop_seen_s=0.31), "left_stop", "0.3 of 0.5 s"),
+    "not in stop": (replace(READY, stop_seen_s=None), "left_stop", "not in the stop posture"),
+    "too short in stop": (replace(READY, stop_seen_s=0.31), "left_stop", "0.3 s, 0.5 s are needed"),
     "training": (replace(READY, lock="a training is running"), "lock", "a training is running"),
     "no model": (replace(READY, model_problem="no model is set"), "model", "no model is set"),
     "no link": (
