@@ -7,6 +7,7 @@ is one line on standard error that names the cause and the remedy.
 import argparse
 import json
 import logging
+import os
 import sys
 from collections.abc import Sequence
 from pathlib import Path
@@ -44,8 +45,16 @@ def main(arguments: Sequence[str] | None = None, open_window: "OpenWindow | None
     except GestureAppError as error:
         sys.stderr.write(f"gestureapp: {error}\n")
         return FAILED
+    except BrokenPipeError:  # whoever read our output has gone; nobody is left to be told
+        sys.stdout = open(os.devnull, "w", encoding="utf-8")  # noqa: SIM115  until the very end
+        return FAILED
     except OSError as error:
-        sys.stderr.write(f"gestureapp: {error.filename or ''}: {error.strerror or error}\n")
+        where = f"{error.filename}: " if error.filename else ""
+        sys.stderr.write(f"gestureapp: {where}{error.strerror or error}\n")
+        return FAILED
+    except ModuleNotFoundError as error:
+        remedy = "pip install 'gestureapp[training]'" if error.name == "torch" else "install it"
+        sys.stderr.write(f"gestureapp: this needs {error.name}, which is not here: {remedy}\n")
         return FAILED
     except KeyboardInterrupt:
         return 130
@@ -115,7 +124,7 @@ def _add_training(commands: "argparse._SubParsersAction[argparse.ArgumentParser]
     train.add_argument("takes", type=Path, metavar="TAKES.npz")
     train.add_argument("-o", "--out", type=Path, required=True, metavar="MODEL.json")
     train.add_argument("--preset", choices=("paper", "default"), default="default")
-    train.add_argument("--seed", type=int, default=0)
+    train.add_argument("--seed", type=_seed, default=0)
     train.add_argument("--json", action="store_true")
     train.set_defaults(run=_train)
 
@@ -195,6 +204,7 @@ def _train(options: argparse.Namespace) -> int:
     from gestureapp.recognition.training import Preset, train
 
     takes = load_takes(options.takes)
+    _check_place(options.out)
     is_shown = sys.stderr.isatty()
 
     def progress(done: int, total: int, loss: float) -> None:
@@ -235,8 +245,29 @@ def _benchmark(options: argparse.Namespace, open_window: "OpenWindow | None") ->
     return FINE
 
 
+def _check_place(out: Path) -> None:
+    """A training takes its time: whether its model can be written is asked before.
+
+    Raises:
+        ModelError: there is no such folder, or the name is a folder's.
+    """
+    from gestureapp.errors import ModelError
+
+    if out.is_dir() or not out.parent.is_dir():
+        raise ModelError(out, "no file can be written there; name one in a folder that exists")
+
+
+def _seed(text: str) -> int:
+    if not (text.isascii() and text.isdigit() and int(text) < 1 << 32):
+        raise argparse.ArgumentTypeError(f"{text} is not a whole number from 0 to 4294967295")
+    return int(text)
+
+
 def _seconds(text: str) -> float:
-    value = float(text)
+    try:
+        value = float(text)
+    except ValueError:
+        value = 0.0
     if not 0 < value < 1e6:
         raise argparse.ArgumentTypeError(f"{text} is not a time in seconds above zero")
     return value
@@ -250,3 +281,4 @@ def _plain_fields(value: object) -> dict[str, object]:
 
 def _write(text: str) -> None:
     sys.stdout.write(f"{text}\n")
+    sys.stdout.flush()
