@@ -66,10 +66,18 @@ class Guardian:
 
     def run(self) -> int:
         """Serve until the application is gone and the robot stands."""
+        has_failed = False
         while not self._is_over(time.monotonic()):
-            self._turn()
+            try:
+                self._turn()
+            except Exception as error:  # the top of the process: it must not leave a robot running
+                if has_failed:
+                    raise
+                has_failed = True
+                log.exception("the guardian failed; it stops the robot and ends")
+                self._application_gone(f"the guardian failed: {error}")
         log.info("ends")
-        return 0
+        return int(has_failed)
 
     def _turn(self) -> None:
         now_s = time.monotonic()
@@ -90,7 +98,11 @@ class Guardian:
     # The application's connections.
 
     def _accept(self) -> None:
-        sock, _ = self._listener.accept()
+        try:
+            sock, _ = self._listener.accept()
+        except OSError as error:  # it went away before its turn, or there are too many
+            log.warning("a connection could not be taken: %s", error)
+            return
         sock.setblocking(False)
         sock.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
         peer = self._peers[sock] = _Peer(sock)
@@ -112,7 +124,8 @@ class Guardian:
             return
         *lines, peer.unread = (peer.unread + data).split(b"\n")
         for line in lines:
-            self._peer_said(peer, line)
+            if peer.sock in self._peers:
+                self._peer_said(peer, line)
         if len(peer.unread) > BACKLOG_LIMIT:
             self._peer_ended(peer)
 
@@ -167,7 +180,11 @@ class Guardian:
             return not self._was_greeted and now_s - self._born_s > HELLO_LIMIT_S
         if not self._supervisor.is_stopping:
             return True
-        is_reachable = self._supervisor.is_link_open or self._supervisor.has_commanded
+        is_reachable = (
+            self._supervisor.is_link_open
+            or self._supervisor.has_commanded
+            or self._robot is not None  # a guardian that has just taken over still gets there
+        )
         return not is_reachable or now_s - self._gone_s > UNREACHABLE_LIMIT_S
 
     # The controller's connection.
@@ -194,7 +211,7 @@ class Guardian:
             self._selector.register(sock, selectors.EVENT_READ | selectors.EVENT_WRITE)
             with contextlib.suppress(BlockingIOError):
                 sock.connect(address)
-        except OSError as error:
+        except (OSError, ValueError, OverflowError) as error:  # also a host or port that is none
             self._robot_gone(str(error))
 
     def _robot_ready(self, mask: int) -> None:
@@ -289,9 +306,7 @@ def main() -> int:
     if not isinstance(start, m.Start):
         sys.stderr.write("guardian: it is started by the application, not by hand\n")
         return 2
-    if start.log:
-        form = "%(asctime)s %(levelname)s %(message)s"
-        logging.basicConfig(filename=start.log, level=logging.INFO, format=form)
+    _open_log(start.log)
     with socket.create_server(("127.0.0.1", 0)) as listener:
         sys.stdout.buffer.write(m.encode(m.Listening(listener.getsockname()[1])))
         sys.stdout.buffer.flush()
@@ -302,3 +317,13 @@ def main() -> int:
 
         signal.signal(signal.SIGTERM, told_to_end)
         return guardian.run()
+
+
+def _open_log(path: str) -> None:
+    """A guardian that cannot write its log still stops the robot."""
+    form = "%(asctime)s %(levelname)s %(message)s"
+    if path:
+        try:
+            logging.basicConfig(filename=path, level=logging.INFO, format=form)
+        except OSError as error:
+            log.warning("no guardian log: %s", error)

@@ -1,0 +1,176 @@
+"""The guardian and who speaks to it: goodbyes, strangers, rubbish, its start, its log, its end."""
+
+import contextlib
+import socket
+import subprocess
+import time
+
+import pytest
+
+from gestureapp.children import child_command, child_environment
+from gestureapp.robot import messages as m
+from gestureapp.robot.guardian import Guardian
+from gestureapp.robot.values import StopReason
+
+pytestmark = pytest.mark.process
+
+LIMIT_S = 10.0
+
+
+def test_goodbye_while_disarmed_ends_without_a_hold(start):
+    started, application = start
+    emulator, guardian = started()
+    app = application(guardian)
+    app.wait_for(m.StatusReport)
+    app.say(m.Bye())
+    app.control.shutdown(socket.SHUT_WR)
+
+    assert guardian.ended() == 0
+    assert emulator.log.requests("HOLD") == []
+
+
+def test_goodbye_while_moving_is_no_excuse(start, hold_after):
+    started, application = start
+    emulator, guardian = started()
+    app = application(guardian)
+    app.move(emulator)
+    gone_s = time.monotonic()
+    app.say(m.Bye())
+    app.window.shutdown(socket.SHUT_WR)
+
+    hold_after(emulator, gone_s, "application gone to HOLD")
+    assert guardian.ended() == 0
+    assert not emulator.is_running()
+
+
+def test_a_connection_without_the_token_is_closed_and_changes_nothing(start):
+    started, application = start
+    emulator, guardian = started()
+    app = application(guardian)
+    stop = m.encode(m.Stop(StopReason.LINK_LOST, "", 0.0))
+    for line in (
+        m.encode(m.Hello("wrong", m.Role.CONTROL)),
+        m.encode(m.Hello("wrong", m.Role.WINDOW)) + stop,
+        m.encode(m.Arm()),
+        b"rubbish\n",
+        b"\xff\x00\n",
+    ):
+        with guardian.connect() as stranger:
+            stranger.sendall(line)
+            with contextlib.suppress(ConnectionResetError):
+                assert stranger.recv(100) == b""
+    app.arm()
+
+    assert emulator.log.requests("HOLD") == []
+
+
+def test_the_right_token_on_a_second_line_comes_too_late(start):
+    started, application = start
+    emulator, guardian = started()
+    app = application(guardian)
+    hello = m.encode(m.Hello(guardian.token, m.Role.CONTROL))
+    stop = m.encode(m.Stop(StopReason.STOP_PRESSED, "", 0.0))
+    with guardian.connect() as stranger:
+        stranger.sendall(b"rubbish\n" + hello + stop)
+        with contextlib.suppress(ConnectionResetError):
+            assert stranger.recv(100) == b""
+    app.arm()
+
+    assert emulator.log.requests("HOLD") == []
+
+
+def test_rubbish_from_the_application_is_overheard(start):
+    started, application = start
+    _, guardian = started()
+    app = application(guardian)
+    huge = b'{"is": "CommandAccepted", "activation_id": 1, "t_s": ' + b"9" * 400 + b"}\n"
+    app.control.sendall(b"\n{}\nnull\n\xff\xfe\n" + b"[" * 5000 + b"\n" + huge)
+    app.arm()
+
+    assert app.heard(m.StopAsked) == []
+
+
+def test_a_line_that_never_ends_counts_as_an_application_gone(start, hold_after):
+    started, application = start
+    emulator, guardian = started()
+    app = application(guardian)
+    app.move(emulator)
+    begun_s = time.monotonic()
+    with contextlib.suppress(OSError):
+        app.window.sendall(b"x" * (3 << 20))
+
+    hold_after(emulator, begun_s, "application gone to HOLD")
+    assert guardian.ended() == 0
+
+
+@pytest.mark.parametrize(("host", "port"), [("", 1), ("a..b", 80), ("127.0.0.1", 70000)])
+def test_an_address_that_is_none_is_told_and_ends_nothing(start, host, port):
+    started, application = start
+    _, guardian = started(host=host, port=port)
+    app = application(guardian)
+    if host:
+        assert not app.wait_for(m.LinkReport, lambda x: host in x.text).is_open
+    app.say(m.Arm())
+
+    assert app.wait_for(m.ArmRefused).refusal.reason == "no_link"
+    app.say(m.Bye())
+    app.control.shutdown(socket.SHUT_WR)
+    assert guardian.ended() == 0
+
+
+def test_what_it_did_stands_in_its_log(start, tmp_path):
+    started, application = start
+    log = tmp_path / "guardian.log"
+    emulator, guardian = started(log=log)
+    app = application(guardian)
+    app.move(emulator)
+    app.window.shutdown(socket.SHUT_RDWR)
+    assert guardian.ended() == 0
+
+    text = log.read_text()
+    assert "application gone: its window connection ended" in text
+    assert "StopConfirmed" in text
+    assert text.rstrip().endswith("ends")
+
+
+def test_a_log_that_cannot_be_written_keeps_no_guardian_from_its_work(start, tmp_path):
+    started, application = start
+    _, guardian = started(log=tmp_path / "no" / "such" / "folder.log")
+    application(guardian).arm()
+
+
+@pytest.mark.parametrize("line", [b"", m.encode(m.Bye())])
+def test_it_is_not_started_by_hand(line):
+    done = subprocess.run(
+        child_command("guardian"),
+        input=line,
+        capture_output=True,
+        timeout=LIMIT_S,
+        check=False,
+        env=child_environment(),
+    )
+
+    assert done.returncode == 2
+    assert done.stdout == b""
+    assert done.stderr.splitlines() == [b"guardian: it is started by the application, not by hand"]
+
+
+def test_a_guardian_nobody_greets_ends_by_itself(lonely):
+    assert lonely.ended() == 0
+
+
+class Failing(Guardian):
+    """Fails in every turn, as a bug would."""
+
+    def _keep_robot(self, now_s):
+        raise ZeroDivisionError("a bug")
+
+
+@pytest.mark.logs_errors
+def test_a_guardian_that_fails_says_so_and_ends(limits, caplog):
+    start = m.Start("t", "", 0, limits, "")
+    with socket.create_server(("127.0.0.1", 0)) as listener:
+        assert Failing(start, listener).run() == 1
+
+    assert "the guardian failed; it stops the robot and ends" in caplog.text
+    assert "application gone: the guardian failed: a bug" in caplog.text
