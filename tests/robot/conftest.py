@@ -169,13 +169,14 @@ class Cell:
     Attributes:
         wire: What was sent: time, bytes, whether armed, and the latch, at that moment.
         told: What the application was told, with the time.
+        story: Everything said, told and sent, in its order.
     """
 
     def __init__(self, limits=LIMITS, robot=None, is_connected=True):
         self.supervisor = Supervisor(limits)
         self.robot = robot or ScriptedRobot()
         self.now_s = START_S
-        self.wire, self.told, self.drops = [], [], []
+        self.wire, self.told, self.drops, self.story = [], [], [], []
         self.posture = "stop"
         self.beats = True
         self.left_s = self.control_s = self.gui_s = 0.0  # how old each is
@@ -219,6 +220,7 @@ class Cell:
     # The application
 
     def say(self, message):
+        self.story.append(message)
         self.supervisor.message(message, self.now_s)
         self.collect()
 
@@ -272,6 +274,7 @@ class Cell:
                 self._take(output)
 
     def _take(self, output):
+        self.story.append(output)
         match output:
             case ToRobot(data):
                 armed, latch = self.supervisor.is_armed, self.supervisor.latch
