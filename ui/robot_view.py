@@ -135,10 +135,10 @@ class _View:
             self._draw_plan(robot.start, robot.increment)
         if robot.pose is not None:
             self._draw_tool(robot.pose)
+        self._painter.restore()
         old = pose_age_text(robot)
         if old:
-            self._write(self._frame.adjusted(6, 4, -6, -4), old, Qt.AlignmentFlag.AlignHCenter)
-        self._painter.restore()
+            self._write(self._title.adjusted(0, 2, -6, 0), old, Qt.AlignmentFlag.AlignRight)
 
     def _at(self, position_mm: tuple[float, float, float]) -> QPointF:
         across, up = position_mm[self._plane.across], position_mm[self._plane.up]

@@ -152,7 +152,8 @@ def _read_arrays(path: Path) -> Mapping[str, NDArray[np.generic]]:
             with np.load(file, allow_pickle=False) as archive:
                 arrays = {name: archive[name] for name in archive.files}
     except (*_UNREADABLE, zipfile.BadZipFile, zlib.error) as error:
-        cause = (str(error) or type(error).__name__).splitlines()[0]
+        words = getattr(error, "strerror", None) or str(error) or type(error).__name__
+        cause = words.splitlines()[0]
         raise RecordingInvalid(path, f"cannot be read: {cause}") from error
     for name, array in arrays.items():
         if not isinstance(array, np.ndarray):
