@@ -175,7 +175,7 @@ def pose_text(pose: Pose, is_rotation: bool) -> str:
 def pose_age_text(robot: RobotView) -> str:
     """What stands where the position is missing or old; empty when it is fresh."""
     if robot.pose is None:
-        return "no position from the robot"
+        return "no position"
     if robot.pose_age_s > _OLD_POSE_S:
         return f"position is {robot.pose_age_s:.1f} s old"
     return ""
