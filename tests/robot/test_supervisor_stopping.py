@@ -380,8 +380,8 @@ def test_a_robot_that_runs_without_a_command_is_held_when_armed(cell, is_armed):
         assert cell.supervisor.latch is StopReason.UNEXPECTED_MOTION
 
 
-@pytest.mark.parametrize("name", ["RSTATS", "RPOSC"])
-def test_a_robot_that_refuses_to_be_read_while_moving_is_stopped(cell, name):
+@pytest.mark.parametrize(("name", "within_s"), [("RPOSC", 0.1), ("RSTATS", 2.6)])
+def test_a_robot_that_refuses_to_be_read_while_moving_is_stopped(cell, name, within_s):
     cell.move()
     cell.robot.refuses[name] = 2060
     took_s = cell.until(lambda: cell.heard(m.StopAsked))
@@ -389,7 +389,7 @@ def test_a_robot_that_refuses_to_be_read_while_moving_is_stopped(cell, name):
     (stop,) = cell.heard(m.StopAsked)
     assert stop.reason is StopReason.ROBOT_CHANGED
     assert stop.text.startswith(f"the robot refused {name}")
-    assert took_s < 0.3
+    assert took_s < within_s
 
 
 def test_a_controller_that_answers_error_to_everything_is_escalated_and_told(cell):
