@@ -101,11 +101,10 @@ class StopPath:
         """What to send next while the stop is under way."""
         seen = self._seen
         hold_is_due = now_s - seen.hold_sent_s >= REPEAT_S and seen.n_reads >= READS
-        off_is_due = now_s - seen.servo_off_sent_s >= REPEAT_S and self._must_escalate(now_s)
-        if off_is_due and not (hold_is_due and seen.hold_sent_s <= seen.servo_off_sent_s):
-            return nx100.SERVO_OFF
         if hold_is_due:
             return nx100.HOLD_ON
+        if now_s - seen.servo_off_sent_s >= REPEAT_S and self._must_escalate(now_s):
+            return nx100.SERVO_OFF
         seen.read_pose_next = not seen.read_pose_next
         return nx100.read_pose(frame) if seen.read_pose_next else nx100.READ_STATUS
 

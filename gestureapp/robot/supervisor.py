@@ -10,43 +10,24 @@ most.
 
 from gestureapp.robot import messages as m
 from gestureapp.robot import nx100
+from gestureapp.robot.commands import Commands
 from gestureapp.robot.exchange import Answered, Exchange, ExchangeEvent, LinkBroken, Opened
-from gestureapp.robot.gate import (
-    Command,
-    GateView,
-    Limits,
-    Permit,
-    Proposal,
-    arm_blocker,
-    decide,
-    permit,
-)
-from gestureapp.robot.motion import Motion, Reached, StoppedShort
+from gestureapp.robot.gate import GateView, Limits, Permit, arm_blocker, permit
+from gestureapp.robot.motion import StoppedShort
 from gestureapp.robot.nx100 import Alarms, Failure, Request
-from gestureapp.robot.outputs import DropRobot, Output, ToApp, ToRobot
+from gestureapp.robot.outbox import Outbox
+from gestureapp.robot.outputs import Output
+from gestureapp.robot.permission import Permission
 from gestureapp.robot.polling import Pace, Polling
 from gestureapp.robot.readings import Readings
 from gestureapp.robot.release import Release
 from gestureapp.robot.stopping import Standstill, StopPath
 from gestureapp.robot.values import Pose, Refusal, RobotStatus, StopReason
-from gestureapp.robot.watchdog import (
-    Cause,
-    find_change,
-    find_left_end,
-    find_stale,
-    next_stale_s,
-)
+from gestureapp.robot.watchdog import Cause, find_change, find_left_end, find_stale, next_look_s
 
-TICK_S = 0.005
-IDLE_TICK_S = 0.02
-"""How often the clocks are looked at while something may move, and otherwise."""
-JUST_OVER_S = 0.0002
-"""A watchdog trips above its limit, not on it."""
 DECIDING_S = 0.3
 """A decision follows the left arm's start within the 160 ms budget; the line is kept
 free meanwhile."""
-ARMING_LIMIT_S = 2.0
-"""Releasing a hold and reading the state back takes a few answers; longer means it fails."""
 
 
 class Supervisor:
@@ -56,32 +37,34 @@ class Supervisor:
 
     Attributes:
         limits: Given at the start, never changed.
-        is_armed: The operator's permission.
-        latch: The stop that has not been left yet, or None.
     """
 
     def __init__(self, limits: Limits) -> None:
         self.limits = limits
-        self.is_armed = False
-        self.latch: StopReason | None = None
+        self._permission = Permission()
+        self._out = Outbox()
         self._exchange = Exchange()
         self._stop = StopPath()
-        self._motion: Motion | None = None
+        self._commands = Commands()
         self._release = Release()
         self._polling = Polling(limits.frame)
-        self._command: Command | None = None
         self._servo_wanted = False
-        self._refused: dict[Request, str] = {}
-        self._arming_until_s: float | None = None
         self._beat: m.Beat | None = None
         self._start_seen_s = float("-inf")
         self._read = Readings()
-        self._link_text = "not connected yet"
-        self._last_activation_id = 0
         self._sent_s = 0.0
-        self._outputs: list[Output] = []
 
     # What the loop asks.
+
+    @property
+    def is_armed(self) -> bool:
+        """The operator's permission."""
+        return self._permission.is_armed
+
+    @property
+    def latch(self) -> StopReason | None:
+        """The stop that has not been left yet, or None."""
+        return self._permission.latch
 
     @property
     def is_stopping(self) -> bool:
@@ -96,48 +79,41 @@ class Supervisor:
     @property
     def may_move(self) -> bool:
         """Armed, or a command is open, or a stop is not confirmed."""
-        return self.is_armed or self._motion is not None or self._stop.is_active
+        return self.is_armed or self.has_commanded or self._stop.is_active
 
     @property
     def has_commanded(self) -> bool:
         """A move was sent and no standstill has been read back since."""
-        return self._motion is not None
+        return self._commands.motion is not None
 
     def take_outputs(self) -> list[Output]:
         """What has to be done now, oldest first; asked for after every input."""
-        outputs, self._outputs = self._outputs, []
-        return outputs
+        return self._out.take()
 
     def next_due_s(self, now_s: float) -> float:
         """When ``tick`` has something to do at the latest."""
-        if not (self.is_armed or self._stop.is_active or self._motion is not None):
-            return min(now_s + IDLE_TICK_S, self._exchange.deadline_s)
-        due_s = min(now_s + TICK_S, self._exchange.deadline_s)
-        if self._beat is None:
-            return due_s
-        stale_s = next_stale_s(self._beat, self.limits) + JUST_OVER_S
-        return min(due_s, stale_s) if stale_s > now_s else due_s
+        look_s = next_look_s(self._beat, self.limits, now_s, may_move=self.may_move)
+        return min(look_s, self._exchange.deadline_s)
 
     # Inputs from the robot's side.
 
     def robot_connected(self, now_s: float) -> None:
         """The socket to the controller is open."""
-        self._outputs.append(ToRobot(self._exchange.connected(now_s)))
+        self._out.send(self._exchange.connected(now_s))
 
     def robot_bytes(self, data: bytes, now_s: float) -> None:
         """Bytes from the controller."""
         self._watch(now_s)  # the data of a move may leave now
         events, out = self._exchange.receive(data, now_s)
-        if out:
-            self._outputs.append(ToRobot(out))
+        self._out.send(out)
         self._handle(events, now_s)
         self.tick(now_s)
 
     def robot_ended(self, reason: str, now_s: float) -> None:
         """The socket was closed or could not be opened."""
         events = self._exchange.end(reason)
-        if not events and reason != self._link_text:
-            self._tell_link(False, reason)
+        if not events and reason != self._out.link_text:
+            self._out.tell_link(False, reason)
         if not events and self.is_armed:
             self.stop(StopReason.LINK_LOST, reason, now_s)
         self._handle(events, now_s)
@@ -146,7 +122,7 @@ class Supervisor:
 
     def greeted(self, now_s: float) -> None:
         """The application has just connected: tell it what is known."""
-        self._tell(m.LinkReport(self._exchange.is_open, self._link_text))
+        self._out.tell(m.LinkReport(self._exchange.is_open, self._out.link_text))
         self._report_status(now_s)
 
     def message(self, message: m.Message, now_s: float) -> None:
@@ -157,7 +133,8 @@ class Supervisor:
             case m.Stop():
                 self.stop(message.reason, message.text, now_s)
             case m.Propose():
-                self._propose(message, now_s)
+                view = self._view()
+                self._out.tell(self._commands.propose(message, view, self.limits, now_s))
             case m.Arm():
                 self._ask_arm(now_s)
             case m.Disarm():
@@ -168,14 +145,14 @@ class Supervisor:
 
     def stop(self, reason: StopReason, text: str, now_s: float) -> None:
         """The one place through which every stop goes, whoever asks."""
-        self._command = None
+        self._commands.take_pending()
         self._servo_wanted = False
         self._release.cancel()
         if reason.is_latched:
-            self.latch = self.latch or reason
+            self._permission.latch = self.latch or reason
             self._lose_permission(text)
         if self._stop.ask(reason, now_s):
-            self._tell(m.StopAsked(reason, text, now_s))
+            self._out.tell(m.StopAsked(reason, text, now_s))
         if (withdrawn := self._exchange.withdraw()) is not None:
             self._forget_robot(withdrawn.reason)
 
@@ -195,38 +172,25 @@ class Supervisor:
     def _ask_arm(self, now_s: float) -> None:
         refusal = arm_blocker(self._view(), self.limits, now_s, ignore_own_hold=True)
         if refusal is not None:
-            self._tell(m.ArmRefused(refusal))
+            self._out.tell(m.ArmRefused(refusal))
             return
-        self._arming_until_s = now_s + ARMING_LIMIT_S
+        self._permission.ask(now_s)
         if self._read.is_held_by_command:
             self._release.begin()
 
     def _check_arming(self, now_s: float) -> None:
-        if self._arming_until_s is None or self._release.is_active:
-            return
-        refusal = arm_blocker(self._view(), self.limits, now_s, ignore_own_hold=False)
-        if refusal is None:
-            self._arming_until_s = None
-            self.is_armed = True
-            self.latch = None
-            self._tell(m.Armed())
-        elif now_s > self._arming_until_s:
-            self._arming_until_s = None
-            self._tell(m.ArmRefused(refusal))
+        if self._permission.is_arming and not self._release.is_active:
+            refusal = arm_blocker(self._view(), self.limits, now_s, ignore_own_hold=False)
+            self._out.tell(self._permission.settle(refusal, now_s))
 
     def _disarm(self, now_s: float) -> None:
-        if self._motion is not None or self._command is not None:
+        if self._commands.is_any:
             self.stop(StopReason.DISARMED, "disarmed while the robot was moving", now_s)
         self._lose_permission("disarmed")
 
     def _lose_permission(self, text: str) -> None:
         self._release.cancel()
-        if self._arming_until_s is not None:
-            self._arming_until_s = None
-            self._tell(m.ArmRefused(Refusal("given_up", text)))
-        if self.is_armed:
-            self.is_armed = False
-            self._tell(m.Disarmed())
+        self._out.tell(*self._permission.lose(text))
 
     def _ask_servo(self) -> None:
         """Now or not at all: servo power never comes on later, when nobody expects it."""
@@ -235,7 +199,7 @@ class Supervisor:
             allowed = Refusal("no_link", "the robot does not answer")
         self._servo_wanted = isinstance(allowed, Permit)
         if isinstance(allowed, Refusal):
-            self._tell(m.Notice(f"servo power was not switched on: {allowed.text}"))
+            self._out.tell(m.Notice(f"servo power was not switched on: {allowed.text}"))
 
     # The heartbeat and the watchdogs.
 
@@ -243,13 +207,13 @@ class Supervisor:
         if beat.is_left_start and not (self._beat and self._beat.is_left_start):
             self._start_seen_s = now_s
         self._beat = beat
-        if self._motion is not None and not self._stop.is_active:
+        if self.has_commanded and not self._stop.is_active:
             self._stop_for(find_left_end(beat, self.limits), now_s)
 
     def _watch(self, now_s: float) -> None:
         if self._stop.is_active and self._stop.reason is not StopReason.LEFT_ARM:
             return
-        if not (self.is_armed or self._motion is not None):
+        if not (self.is_armed or self.has_commanded):
             return
         if self._beat is not None:
             self._stop_for(find_stale(self._beat, self.limits, now_s), now_s)
@@ -258,15 +222,7 @@ class Supervisor:
         if cause is not None:
             self.stop(cause.reason, cause.text, now_s)
 
-    # Commands.
-
-    def _propose(self, message: m.Propose, now_s: float) -> None:
-        proposal = Proposal(message.activation_id, message.direction, message.t_s)
-        decision = decide(proposal, self._view(), self.limits, now_s)
-        if isinstance(decision, Refusal):
-            self._tell(m.CommandRefused(message.activation_id, decision))
-        else:
-            self._command = decision
+    # The wire.
 
     def _view(self) -> GateView:
         return GateView(
@@ -274,8 +230,8 @@ class Supervisor:
             latch=self.latch,
             is_stopping=self._stop.is_active,
             is_releasing=self._release.is_active,
-            is_moving=self._motion is not None or self._command is not None,
-            last_activation_id=self._last_activation_id,
+            is_moving=self._commands.is_any,
+            last_activation_id=self._commands.last_activation_id,
             status=self._read.status,
             status_s=self._read.status_s,
             pose=self._read.pose,
@@ -286,27 +242,16 @@ class Supervisor:
             is_link_open=self._exchange.is_open,
         )
 
-    def _begin_motion(self, command: Command, now_s: float) -> None:
-        """Look once more with the newest values, immediately before the bytes leave."""
-        self._command = None
-        again = decide(command.proposal, self._view(), self.limits, now_s)
-        if isinstance(again, Refusal):
-            self._tell(m.CommandRefused(command.proposal.activation_id, again))
-            return
-        self._motion = Motion(again, now_s)
-        self._last_activation_id = self._motion.activation_id
-        self._send(again.permit, now_s)
-        self._tell(self._motion.report)
-
-    # The wire.
-
     def _send_next(self, now_s: float) -> None:
         if self._stop.is_active:
             self._send_if_allowed(self._stop.next_request(now_s, self.limits.frame), now_s)
         elif (request := self._release.next_request(self.limits.frame)) is not None:
             self._send_if_allowed(request, now_s)
-        elif self._command is not None:
-            self._begin_motion(self._command, now_s)
+        elif (command := self._commands.take_pending()) is not None:
+            told = self._commands.begin(command, self._view(), self.limits, now_s)
+            if self._commands.motion is not None:
+                self._send(self._commands.motion.command.permit, now_s)
+            self._out.tell(told)
         elif self._servo_wanted:
             self._servo_wanted = False
             self._send_if_allowed(nx100.SERVO_ON, now_s)
@@ -314,8 +259,8 @@ class Supervisor:
             self._send_if_allowed(poll, now_s)
 
     def _pace(self, now_s: float) -> Pace:
-        if self._motion is not None:
-            return Pace.ENDING if self._motion.seems_ended else Pace.MOVING
+        if self._commands.motion is not None:
+            return Pace.ENDING if self._commands.motion.seems_ended else Pace.MOVING
         if self.is_armed and now_s - self._start_seen_s < DECIDING_S:
             return Pace.DECIDING
         if self._release.is_watching(now_s):
@@ -326,14 +271,13 @@ class Supervisor:
         allowed = permit(request, self._view())
         if isinstance(allowed, Refusal):
             self._release.cancel()
-            self._tell(m.Notice(f"{request} was not sent: {allowed.text}"))
+            self._out.tell(m.Notice(f"{request} was not sent: {allowed.text}"))
             return
         self._send(allowed, now_s)
 
     def _send(self, allowed: Permit, now_s: float) -> None:
-        self._outputs.append(
-            ToRobot(self._exchange.send(allowed, now_s, is_stopping=self._stop.is_active))
-        )
+        is_stopping = self._stop.is_active
+        self._out.send(self._exchange.send(allowed, now_s, is_stopping=is_stopping))
         self._sent_s = now_s
         self._stop.sent(allowed.request, now_s)
 
@@ -343,7 +287,7 @@ class Supervisor:
         for event in events:
             match event:
                 case Opened():
-                    self._tell_link(True, event.banner)
+                    self._out.tell_link(True, event.banner)
                     self._polling.restart()
                 case Answered():
                     self._answered(event, now_s)
@@ -364,79 +308,60 @@ class Supervisor:
             case Failure() if event.request.name != "IMOV":
                 self._refusal_came(event.request, event.answer.words, now_s)
         if event.request.name == "IMOV":
-            self._command_answered(event, now_s)
+            self._out.tell(self._commands.answered(event.answer, now_s))
         elif not isinstance(event.answer, Failure):
-            self._refused.pop(event.request, None)
+            self._out.forget_refused(event.request)
 
     def _refusal_came(self, request: Request, words: str, now_s: float) -> None:
         """Told once until it is taken again; without reads nobody knows what the robot does."""
         text = f"the robot refused {request}: {words}"
-        if self._refused.get(request) != text:
-            self._refused[request] = text
-            self._tell(m.Notice(text))
+        self._out.tell_refused(request, text)
         is_read = request == nx100.READ_STATUS or request.name == "RPOSC"
         if is_read and self.may_move and not self._stop.is_active:
             self.stop(StopReason.ROBOT_CHANGED, text, now_s)
 
-    def _command_answered(self, event: Answered, now_s: float) -> None:
-        motion = self._motion
-        if motion is None:
-            return
-        activation_id = motion.activation_id
-        if isinstance(event.answer, Failure):
-            self._motion = None
-            refusal = Refusal("robot_refused", f"the robot refused: {event.answer.words}")
-            self._tell(m.CommandRefused(activation_id, refusal))
-        else:
-            motion.accepted(now_s)
-            self._tell(m.CommandAccepted(activation_id, now_s))
-
     def _take_status(self, status: RobotStatus, now_s: float) -> None:
+        """A robot that changes by itself while it may move is stopped, latched."""
         self._read.status, self._read.status_s = status, now_s
         if not (status.has_alarm or status.has_error):
             self._read.alarms = ()
         elif not self._read.alarms:
             self._polling.want_alarms()
         self._report_status(now_s)
-        if self._motion is not None:
-            self._motion.note_status(status, self._sent_s)
-        self._judge_status(status, now_s)
-
-    def _judge_status(self, status: RobotStatus, now_s: float) -> None:
-        """A robot that changes by itself while it may move is stopped, latched."""
+        if self._commands.motion is not None:
+            self._commands.motion.note_status(status, self._sent_s)
         if self._stop.is_active:
             return
         change = find_change(
             status,
-            is_commanded=self._motion is not None,
+            is_commanded=self.has_commanded,
             may_move=self.may_move,
-            may_resume=self._arming_until_s is not None or self._release.is_watching(now_s),
+            may_resume=self._permission.is_arming or self._release.is_watching(now_s),
         )
         self._stop_for(change, now_s)
 
     def _take_pose(self, pose: Pose, now_s: float) -> None:
         self._read.pose, self._read.pose_s = pose, now_s
-        self._tell(m.PoseReport(now_s, pose))
-        if self._motion is not None:
-            self._motion.note_pose(pose, self._sent_s)
+        self._out.tell(m.PoseReport(now_s, pose))
+        if self._commands.motion is not None:
+            self._commands.motion.note_pose(pose, self._sent_s)
 
     def _report_status(self, now_s: float) -> None:
         status = self._read.status
         if status is not None:
             alarms = self._read.alarms
-            self._tell(m.StatusReport(now_s, status.data_1, status.data_2, alarms))
+            self._out.tell(m.StatusReport(now_s, status.data_1, status.data_2, alarms))
 
     def _link_broken(self, event: LinkBroken, now_s: float) -> None:
         may_resume = self._release.is_active or self._release.is_watching(now_s)
         self._forget_robot(event.reason)
-        if self.is_armed or self._motion is not None or may_resume:
+        if self.is_armed or self.has_commanded or may_resume:
             self.stop(StopReason.LINK_LOST, event.reason, now_s)
         self._lose_permission(event.reason)
 
     def _forget_robot(self, reason: str) -> None:
         """The session is over: nothing that was read counts any more."""
-        self._outputs.append(DropRobot(reason))
-        self._tell_link(False, reason)
+        self._out.drop(reason)
         self._read = Readings()
         self._servo_wanted = False
         self._stop.link_broken()
@@ -448,34 +373,27 @@ class Supervisor:
         if outcome is None:
             return
         if isinstance(outcome, Standstill):
-            self._motion = None
-            self._tell(m.StopConfirmed(outcome.reason, outcome.took_s, outcome.pose))
+            self._commands.motion = None
+            self._out.tell(m.StopConfirmed(outcome.reason, outcome.took_s, outcome.pose))
         else:
-            self._tell(m.StopUnconfirmed(outcome.reason, outcome.text))
+            self._out.tell(m.StopUnconfirmed(outcome.reason, outcome.text))
 
     def _check_motion(self, now_s: float) -> None:
-        if self._motion is None or self._stop.is_active:
+        if self._stop.is_active:
             return
-        outcome = self._motion.check(now_s)
-        activation_id = self._motion.activation_id
-        if isinstance(outcome, Reached):
-            self._motion = None
-            self._tell(m.MotionEnded(activation_id, outcome.pose))
-        elif isinstance(outcome, StoppedShort):
+        outcome = self._commands.check(now_s)
+        if isinstance(outcome, StoppedShort):
             self.stop(outcome.reason, outcome.text, now_s)
+        else:
+            self._out.tell(outcome)
 
     def _check_release(self, now_s: float) -> None:
         """After the left arm's own stop the hold is released, once that arm is back in stop."""
         if self._release.take_done():
-            self._tell(m.HoldReleased())
-        is_free = not (self._stop.is_active or self._motion) and self._release.may_begin(now_s)
+            self._out.tell(m.HoldReleased())
+        is_free = not (self._stop.is_active or self.has_commanded) and self._release.may_begin(
+            now_s
+        )
         is_left_stop = self._beat is not None and self._beat.is_left_stop
         if self.is_armed and is_free and is_left_stop and self._read.is_held_by_command:
             self._release.begin()
-
-    def _tell_link(self, is_open: bool, text: str) -> None:
-        self._link_text = text
-        self._tell(m.LinkReport(is_open, text))
-
-    def _tell(self, message: m.FromGuardian) -> None:
-        self._outputs.append(ToApp(message))

@@ -10,6 +10,12 @@ from gestureapp.robot.gate import AHEAD_S, Limits, robot_blocker
 from gestureapp.robot.messages import Beat
 from gestureapp.robot.values import RobotStatus, StopReason
 
+TICK_S = 0.005
+IDLE_TICK_S = 0.02
+"""How often the clocks are looked at while something may move, and otherwise."""
+JUST_OVER_S = 0.0002
+"""A watchdog trips above its limit, not on it."""
+
 
 @dataclass(frozen=True, slots=True)
 class Cause:
@@ -33,13 +39,18 @@ def find_stale(beat: Beat, limits: Limits, now_s: float) -> Cause | None:
     return None
 
 
-def next_stale_s(beat: Beat, limits: Limits) -> float:
-    """When something will be too old, if nothing new comes; monotonic seconds."""
-    return min(
+def next_look_s(beat: Beat | None, limits: Limits, now_s: float, *, may_move: bool) -> float:
+    """When the clocks have to be looked at again, if nothing new comes; monotonic seconds."""
+    if not may_move:
+        return now_s + IDLE_TICK_S
+    if beat is None:
+        return now_s + TICK_S
+    stale_s = JUST_OVER_S + min(
         beat.left_s + limits.trip_level_s,
         beat.control_s + limits.control_limit_s,
         beat.gui_s + limits.gui_limit_s,
     )
+    return min(now_s + TICK_S, stale_s) if stale_s > now_s else now_s + TICK_S
 
 
 def find_left_end(beat: Beat, limits: Limits) -> Cause | None:

@@ -1,0 +1,52 @@
+"""What the supervisor wants done, in its order: bytes, dropped links, words for the cell. Pure."""
+
+from gestureapp.robot import messages as m
+from gestureapp.robot.nx100 import Request
+from gestureapp.robot.outputs import DropRobot, Output, ToApp, ToRobot
+
+
+class Outbox:
+    """Collects outputs until the loop takes them. Owned by the supervisor.
+
+    Attributes:
+        link_text: The last word on the line to the controller.
+    """
+
+    def __init__(self) -> None:
+        self.link_text = "not connected yet"
+        self._outputs: list[Output] = []
+        self._refused: dict[Request, str] = {}
+
+    def take(self) -> list[Output]:
+        """Everything since the last time, oldest first."""
+        outputs, self._outputs = self._outputs, []
+        return outputs
+
+    def send(self, data: bytes) -> None:
+        """Bytes for the controller, if there are any."""
+        if data:
+            self._outputs.append(ToRobot(data))
+
+    def drop(self, reason: str) -> None:
+        """The line to the controller cannot be trusted any more."""
+        self._outputs.append(DropRobot(reason))
+        self.tell_link(False, reason)
+
+    def tell(self, *messages: m.FromGuardian | None) -> None:
+        """Words for the application; None is nothing to say."""
+        self._outputs += [ToApp(message) for message in messages if message is not None]
+
+    def tell_link(self, is_open: bool, text: str) -> None:
+        """The line to the controller is open, or why not."""
+        self.link_text = text
+        self.tell(m.LinkReport(is_open, text))
+
+    def tell_refused(self, request: Request, text: str) -> None:
+        """The controller refuses a request: said once, until it takes it again."""
+        if self._refused.get(request) != text:
+            self._refused[request] = text
+            self.tell(m.Notice(text))
+
+    def forget_refused(self, request: Request) -> None:
+        """The controller has taken it."""
+        self._refused.pop(request, None)

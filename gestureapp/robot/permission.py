@@ -1,0 +1,55 @@
+"""The operator's permission, how it is being given, and the latch of a stop. Pure."""
+
+from gestureapp.robot import messages as m
+from gestureapp.robot.values import Refusal, StopReason
+
+ARMING_LIMIT_S = 2.0
+"""Releasing a hold and reading the state back takes a few answers; longer means it fails."""
+
+
+class Permission:
+    """Whether the robot may move. Owned by the supervisor.
+
+    Attributes:
+        is_armed: The operator's permission.
+        latch: The stop that has not been left yet, or None.
+    """
+
+    def __init__(self) -> None:
+        self.is_armed = False
+        self.latch: StopReason | None = None
+        self._until_s: float | None = None
+
+    @property
+    def is_arming(self) -> bool:
+        """It was asked for and is neither given nor refused."""
+        return self._until_s is not None
+
+    def ask(self, now_s: float) -> None:
+        """Begin to arm."""
+        self._until_s = now_s + ARMING_LIMIT_S
+
+    def settle(self, refusal: Refusal | None, now_s: float) -> m.Armed | m.ArmRefused | None:
+        """Give permission when nothing stands against it, refuse it when that lasts too long."""
+        if self._until_s is None:
+            return None
+        if refusal is None:
+            self._until_s = None
+            self.is_armed = True
+            self.latch = None
+            return m.Armed()
+        if now_s > self._until_s:
+            self._until_s = None
+            return m.ArmRefused(refusal)
+        return None
+
+    def lose(self, text: str) -> list[m.FromGuardian]:
+        """Take it back, given or on its way; what the application has to know."""
+        told: list[m.FromGuardian] = []
+        if self._until_s is not None:
+            self._until_s = None
+            told.append(m.ArmRefused(Refusal("given_up", text)))
+        if self.is_armed:
+            self.is_armed = False
+            told.append(m.Disarmed())
+        return told
