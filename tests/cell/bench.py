@@ -124,27 +124,30 @@ class Bench:
         self.operator.left_stop()
         self.operator.right_rest()
         self.nx100.fault(Fault())
+        self.until(lambda s: s.state is not CellState.STOPPING)
         if self.now.state in (CellState.STOPPED, CellState.READY, CellState.NOT_READY):
-            self._switch_servo_on()
-            self.until(lambda s: s.can_arm, 10.0)
+            self.until(self._can_arm, 10.0)
             self.cell.arm()
         snapshot = self.reach(CellState.ARMED)
         self.nx100.place(HOME)
         self.settle()
         return snapshot
 
-    def _switch_servo_on(self) -> None:
-        """A stop that the robot did not confirm in time has switched it off."""
-        self.until(lambda s: s.robot.is_connected and s.robot.status is not None)
-        if self.now.state is not CellState.NOT_READY or self.now.blockers:
-            status = self.now.robot.status
-            if status is not None and not status.is_servo_on:
-                self.cell.servo_on()
+    def _can_arm(self, snapshot: Snapshot) -> bool:
+        """Whether arming would be taken; servo power is switched on as a person would."""
+        if any("servo power" in blocker.text for blocker in snapshot.blockers):
+            self.cell.servo_on()
+        return snapshot.can_arm
 
     def settle(self) -> None:
         """Until the position read back is where the arm is and the state is known to be free."""
         pose = self.nx100.pose()
         self.until(lambda s: s.robot.pose == pose and s.posture is ArmPosture.STOP)
+
+    def rest(self, span_s: float) -> None:
+        """Be the window for so long, while nothing else is asked of anybody."""
+        end_s = self.now.t_s + span_s
+        self.until(lambda s: s.t_s > end_s, span_s + 2.0)
 
     def free(self) -> None:
         """Until the guardian has released its hold after the left arm's own stop."""

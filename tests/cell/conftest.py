@@ -150,7 +150,8 @@ class Desk:
     """
 
     def __init__(self, settings: Settings | None = None) -> None:
-        self.settings = Settings() if settings is None else settings
+        settings = Settings() if settings is None else settings
+        self.settings = replace(settings, robot=replace(settings.robot, host="10.0.0.2"))
         person = practised_person(DEMO_SEED, session=DEMO_SESSION)
         self.person = person
         self.now_s = 1000.0

@@ -3,11 +3,14 @@
 What the robot did is read from the emulated controller's own log. The test's loop is the window.
 """
 
+import math
 from collections.abc import Iterator
+from dataclasses import replace
 
 import pytest
 
 from gestureapp.cell.snapshot import CellState, Snapshot
+from gestureapp.robot.release import WATCH_S
 from gestureapp.robot.values import RobotStatus
 from gestureapp.sensing.values import Side
 from gestureapp.simulation.nx100_log import What
@@ -65,12 +68,15 @@ def test_a_gesture_moves_the_tool_and_the_left_arm_stops_it_and_the_next_needs_n
 def test_a_move_that_nobody_stops_ends_a_margin_short_of_the_field_and_leaves_the_cell_armed(bench):
     bench.arm()
     bench.free()
-    bench.operator.gesture("RZ+")
+    bench.nx100.place(replace(HOME, x_mm=1100.0))
+    bench.settle()
+    bench.operator.gesture("X+")
     bench.reach(S.MOVING)
-    bench.until(lambda s: s.state is S.ARMED, 15.0)
+    bench.reach(S.ARMED)
     ended = bench.last(What.MOTION_END)
     assert ended.name == EndReason.DONE.value
-    assert ended.pose.rz_deg == pytest.approx(90.0 - 2.0, abs=0.1)
+    edge_mm = math.sqrt(1200.0**2 - HOME.z_mm**2)
+    assert ended.pose.x_mm == pytest.approx(edge_mm - 20.0, abs=0.01)
     assert says(bench.now, "the end of the increment is reached")
 
 
@@ -115,7 +121,7 @@ LEFT_FAULTS = {
 RIGHT_FAULTS = {
     kind: words.replace("left", "right")
     for kind, words in LEFT_FAULTS.items()
-    if kind is not FaultKind.SLOW  # the same code as the left's, and slow to show
+    if kind in (FaultKind.SILENT, FaultKind.GARBAGE, FaultKind.UNPLUGGED)
 }
 
 
@@ -185,16 +191,21 @@ def test_answers_that_come_in_pieces_keep_neither_the_move_nor_its_stop_from_wor
     assert stands_held(bench)
 
 
-@pytest.mark.parametrize("kind", ROBOT_FAULTS, ids=lambda kind: kind.value)
-def test_a_controllers_fault_at_rest_stands_against_arming_until_it_ends(bench, kind):
+def test_a_controllers_fault_at_rest_stands_against_arming_until_it_ends(bench):
     bench.arm()
     bench.cell.disarm()
-    bench.reach(S.READY)
-    bench.nx100.fault(RobotFault(kind))
-    snapshot = bench.reach(S.NOT_READY)
-    assert {blocker.id for blocker in snapshot.blockers} <= {"robot_link", "robot_state"}
-    assert all(blocker.text and blocker.remedy for blocker in snapshot.blockers)
-    bench.nx100.fault(RobotFault())
+    bench.rest(2 * WATCH_S)  # a link lost right after releasing a hold is a stop, as it may resume
+    for kind in ROBOT_FAULTS:
+        bench.reach(S.READY, 8.0)
+        before = bench.last(What.OPEN).connection
+        bench.nx100.fault(RobotFault(kind))
+        if kind is RobotFaultKind.DROP:  # over before anybody can see it
+            bench.until(lambda _, n=before: bench.last(What.OPEN).connection > n)
+            continue
+        snapshot = bench.reach(S.NOT_READY)
+        assert {blocker.id for blocker in snapshot.blockers} <= {"robot_link", "robot_state"}
+        assert all(blocker.text and blocker.remedy for blocker in snapshot.blockers)
+        bench.nx100.fault(RobotFault())
     bench.reach(S.READY, 8.0)
 
 
