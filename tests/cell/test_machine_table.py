@@ -281,6 +281,23 @@ def test_an_unconfirmed_stop_is_marked_until_standstill_is_read_back():
     assert not state.is_stop_unconfirmed
 
 
+def test_an_unconfirmed_stop_stays_so_when_it_gets_another_reason():
+    state, _ = step(STATES["stopping, left arm"], EVENTS["stop open"], Rules())
+    for event in ("stop", "latched stop taken", "guardian gone"):
+        state, _ = step(state, EVENTS[event], Rules())
+        assert state.is_stop_unconfirmed
+
+
+def test_an_activation_given_up_needs_the_stop_posture_before_the_next():
+    state, _ = step(STATES["armed"], EVENTS["left start"], Rules())
+    state, _ = step(state, e.Decided(NOW_S, ID + 1, None, "no clear gesture"), Rules())
+    state, _ = step(state, EVENTS["left start"], Rules())
+    assert (state.state, state.activation_id) == (S.ARMED, ID + 1)
+    state, _ = step(state, EVENTS["left stop"], Rules())
+    state, _ = step(state, EVENTS["left start"], Rules())
+    assert (state.state, state.activation_id) == (S.ACTIVATED, ID + 2)
+
+
 def test_the_stop_posture_counts_from_its_first_sample_even_at_time_zero():
     state, _ = step(MachineState(), e.LeftPosture(0.0, ArmPosture.STOP), Rules())
     state, _ = step(state, e.LeftPosture(5.0, ArmPosture.STOP), Rules())
