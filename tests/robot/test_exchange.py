@@ -1,13 +1,9 @@
 """The exchange: scripted conversations in manual time, end of stream anywhere, any rubbish."""
 
-import ast
-from pathlib import Path
-
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-import gestureapp
 from gestureapp.robot import nx100
 from gestureapp.robot.exchange import (
     ANSWER_LIMIT_S,
@@ -393,21 +389,3 @@ def test_any_bytes_at_any_time_never_raise_and_a_broken_link_sends_nothing(steps
             assert out == b""
             is_down = True
         assert not (is_down and (exchange.can_send or exchange.is_open or exchange.request))
-
-
-def test_only_the_gate_makes_a_permit_and_only_the_supervisor_sends_one():
-    root = Path(gestureapp.__file__).parent
-    makers, senders = set(), set()
-    for path in root.rglob("*.py"):
-        for node in ast.walk(ast.parse(path.read_text("utf-8"))):
-            if not isinstance(node, ast.Call):
-                continue
-            name = node.func.attr if isinstance(node.func, ast.Attribute) else None
-            name = node.func.id if isinstance(node.func, ast.Name) else name
-            if name == "Permit":
-                makers.add(path.relative_to(root).as_posix())
-            if name == "Exchange":
-                senders.add(path.relative_to(root).as_posix())
-
-    assert makers == {"robot/gate.py"}
-    assert senders == {"robot/supervisor.py"}

@@ -1,11 +1,14 @@
 """The gate: just under, on and just over every limit, armed and not, every blocker, white list."""
 
+import ast
 from dataclasses import replace
+from pathlib import Path
 
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+import gestureapp
 from gestureapp.robot import nx100
 from gestureapp.robot.gate import (
     AHEAD_S,
@@ -311,3 +314,21 @@ def test_every_limit_has_bounds_that_no_site_can_pass(name, low, high):
     for outside in (low - step, high + step, float("nan"), float("inf"), float("-inf")):
         with pytest.raises(ValueError, match=f"{name} = .*between {low} and {high}"):
             replace(LIMITS, **{name: outside})
+
+
+def test_only_the_gate_makes_a_permit_and_only_the_supervisor_sends_one():
+    root = Path(gestureapp.__file__).parent
+    makers, senders = set(), set()
+    for path in root.rglob("*.py"):
+        for node in ast.walk(ast.parse(path.read_text("utf-8"))):
+            if not isinstance(node, ast.Call):
+                continue
+            name = node.func.attr if isinstance(node.func, ast.Attribute) else None
+            name = node.func.id if isinstance(node.func, ast.Name) else name
+            if name == "Permit":
+                makers.add(path.relative_to(root).as_posix())
+            if name == "Exchange":
+                senders.add(path.relative_to(root).as_posix())
+
+    assert makers == {"robot/gate.py"}
+    assert senders == {"robot/supervisor.py"}
