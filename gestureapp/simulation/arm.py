@@ -34,8 +34,8 @@ Triple = tuple[float, float, float]
 HOLD_S = 0.7
 """How long the end point of a movement is held before the hand goes back by itself: past the end of
 a take, which is 1.0 s after the activation."""
-RETURN_PEAK_G = 0.03
-"""Highest acceleration on the way back: of the order of the tremor, so it looks like no gesture."""
+RETURN_PEAK_G = 0.06
+"""Highest acceleration on the way back: well below what counts as a movement (0.15 g)."""
 TURN_BACK_S = 1.2
 """Least duration of the way back from a posture; two to four times slower than the gesture."""
 POSTURE_SETTLED_S = 0.15
@@ -206,8 +206,7 @@ class RightArm:
             + abs(change[Coordinate.SWING]) * self.person.forearm_m
         )
         way_m += abs(change[Coordinate.YAW]) * self.person.yaw_radius_m
-        duration_s = math.sqrt(PEAK_ACCELERATION * way_m / (RETURN_PEAK_G * STANDARD_GRAVITY))
-        self._motion.add(Submovement(t_s, max(duration_s, TURN_BACK_S), tuple(change.tolist())))
+        self._motion.add(Submovement(t_s, _way_back_s(way_m), tuple(change.tolist())))
 
     def _find_level(self, t_s: float) -> None:
         """Choose what this person takes for level next; at the very start, be there."""
@@ -257,6 +256,13 @@ class LeftArm:
     def accel_at(self, times_s: F64) -> F64:
         """The same for times of shape (n,): shape (n, 3), in g."""
         return self._worn.accel(self._motion, times_s)
+
+
+def home_after_s(person: Person) -> float:
+    """How long after the start of a movement the right hand is back at rest, at the latest."""
+    longer = 1.0 + 3.0 * person.variation
+    back_s = _way_back_s(max(person.reach_m) * longer)
+    return person.duration_s * longer + HOLD_S + back_s
 
 
 def start_seen_after_s(person: Person, rate_hz: float = 100.0) -> float:
@@ -315,3 +321,8 @@ def _chance(person: Person, seed: int | None, side: int) -> np.random.Generator:
     if seed is None:
         return np.random.default_rng()
     return np.random.default_rng([person.seed, person.index, person.session, side, seed])
+
+
+def _way_back_s(way_m: float) -> float:
+    slow_s = math.sqrt(PEAK_ACCELERATION * way_m / (RETURN_PEAK_G * STANDARD_GRAVITY))
+    return max(slow_s, TURN_BACK_S)

@@ -5,7 +5,7 @@ from dataclasses import dataclass, field
 
 from gestureapp.gestures import Kind, gesture
 from gestureapp.sensing.values import ArmPosture, Side
-from gestureapp.simulation.arm import TURN_BACK_S, RightArm, start_seen_after_s
+from gestureapp.simulation.arm import TURN_BACK_S, RightArm, home_after_s, start_seen_after_s
 from gestureapp.simulation.people import Person
 
 LEAD_S = 0.05
@@ -36,6 +36,7 @@ class Timing:
     Attributes:
         start_seen_s: From the left arm's start of turning until it is seen in START.
         left_turn_s: Duration of the left arm's turn.
+        home_after_s: From the start of a movement until the right hand is back at rest.
         held_lead_s: A roll or pitch begins this long before the activation.
         offset_s: Mean onset of the right arm after the activation; negative is early.
         offset_spread_s: Standard deviation of it.
@@ -43,6 +44,7 @@ class Timing:
 
     start_seen_s: float
     left_turn_s: float
+    home_after_s: float
     held_lead_s: float
     offset_s: float
     offset_spread_s: float
@@ -53,6 +55,7 @@ class Timing:
         return cls(
             start_seen_after_s(person),
             person.left_turn_s,
+            home_after_s(person),
             RightArm(person).lead_s("RX+"),
             person.offset_s,
             person.offset_spread_s,
@@ -107,8 +110,8 @@ class OperatorPlan:
     def gesture(self, label: str, now_s: float) -> list[Order]:
         """Make a gesture with both arms, as soon as they are free for it.
 
-        A raised left arm is lowered first and held in stop long enough to be seen; a turned right
-        hand goes back first. Roll and pitch are held before the left arm rises; everything else
+        A raised left arm is lowered first and held in stop long enough to be seen; the right hand
+        goes back to rest first. Roll and pitch are held before the left arm rises; everything else
         begins at the moment the left arm is seen in START, plus the person's own offset.
 
         Raises:
@@ -130,6 +133,8 @@ class OperatorPlan:
         left_s = activation_s - self.timing.start_seen_s
         self._left_up_s, self._right_begins_s = left_s, right_s
         self._right_is_turned = wanted.kind is Kind.POSTURE
+        if not self._right_is_turned:
+            self._right_home_s = right_s + self.timing.home_after_s
         self.left, self.right = "raised: start", f"{label}, {wanted.words}"
         start = ArmPosture.START.value
         return [

@@ -20,7 +20,12 @@ from gestureapp.simulation.operator_plan import (
 from gestureapp.simulation.people import practised_person
 
 TIMING = Timing(
-    start_seen_s=0.25, left_turn_s=0.32, held_lead_s=0.5, offset_s=-0.03, offset_spread_s=0.0
+    start_seen_s=0.25,
+    left_turn_s=0.32,
+    home_after_s=2.5,
+    held_lead_s=0.5,
+    offset_s=-0.03,
+    offset_spread_s=0.0,
 )
 HELD = ("RX+", "RX-", "RY+", "RY-")
 MOVING = tuple(label for label in LABELS if label not in HELD)
@@ -157,3 +162,19 @@ def test_the_times_are_those_of_the_person():
     assert timing.left_turn_s == person.left_turn_s
     assert 0.0 < timing.start_seen_s < person.left_turn_s + 0.1
     assert timing.held_lead_s > person.turn_s
+
+
+def test_the_next_gesture_waits_until_the_right_hand_is_home_from_a_movement():
+    hands = plan()
+    (first,) = orders_to(Side.RIGHT, hands.gesture("Z+", 10.0))
+    hands.left_stop(11.0)
+    (second,) = orders_to(Side.RIGHT, hands.gesture("Z-", 11.1))
+    assert second["at_s"] >= first["at_s"] + TIMING.home_after_s
+
+
+def test_the_next_gesture_comes_at_once_when_the_right_hand_has_had_time():
+    hands = plan()
+    hands.gesture("Z+", 10.0)
+    hands.left_stop(19.0)
+    (second,) = orders_to(Side.RIGHT, hands.gesture("Z-", 20.0))
+    assert second["at_s"] < 20.5
