@@ -164,4 +164,4 @@ def test_a_stop_during_a_release_makes_it_begin_again(cell):
     cell.until(lambda: cell.heard(m.HoldReleased))
 
     asked = cell.asked(begin_s)
-    assert asked[asked.index("HOLD 0") - 1] == "RPOSC 1,0"
+    assert asked[: asked.index("HOLD 0")][-1:] == ["RPOSC 1,0"]
