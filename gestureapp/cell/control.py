@@ -91,7 +91,7 @@ class Control:
         self._recogniser, self._model, self._model_problem = recogniser, model, model_problem
         self._start_guardian, self._gui_seen_s = start_guardian, gui_seen_s
         self._record, self._clock, self._wall_clock = record, clock, wall_clock
-        self._rules = Rules(site.drive_mode, site.stop_on_right_lost)
+        self._rules = Rules(site.drive_mode, site.stop_on_right_lost, bool(settings.robot.host))
         self._inbox: queue.SimpleQueue[Input] = queue.SimpleQueue()
         self._trackers = {
             side: StreamTracker(side, site.trip_level_s, site.rate_min_hz, site.rate_max_hz)

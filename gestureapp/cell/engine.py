@@ -123,7 +123,7 @@ class Cell:
     def stop(self) -> None:
         """STOP: first straight to the guardian, then to the cell's own knowledge."""
         link = self._link
-        if link is not None:
+        if link is not None and self.settings.robot.host:
             link.stop_now("STOP was pressed")
         self._control.put(e.StopPressed(self._clock()))
 

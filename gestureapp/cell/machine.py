@@ -53,10 +53,17 @@ ARMING_LIMIT_S = 3.0
 
 @dataclass(frozen=True, slots=True)
 class Rules:
-    """What the site decides about the machine."""
+    """What the site decides about the machine.
+
+    Attributes:
+        drive_mode: What ends a move.
+        stop_on_right_lost: Whether losing the right sensor stops a running move.
+        has_robot: An address is set; without one nothing can be armed, and nothing moves.
+    """
 
     drive_mode: DriveMode = DriveMode.HOLD_TO_RUN
     stop_on_right_lost: bool = True
+    has_robot: bool = True
 
 
 @dataclass(frozen=True, slots=True)
@@ -128,7 +135,7 @@ def step(s: MachineState, event: Event, rules: Rules) -> Step:
         case Decided():
             return _decided(s, event)
         case ArmPressed() | DisarmPressed() | StopPressed():
-            return _pressed(s, event)
+            return _pressed(s, event, rules)
         case ArmTaken() | ArmDenied() | PermissionLost():
             return _permission(s, event)
         case MoveAccepted() | MoveRefused() | MoveEnded():
@@ -202,8 +209,12 @@ def _decided(s: MachineState, event: Decided) -> Step:
     return replace(s, is_proposed=True, note=event.text), (proposal, Say(event.text))
 
 
-def _pressed(s: MachineState, event: ArmPressed | DisarmPressed | StopPressed) -> Step:
+def _pressed(
+    s: MachineState, event: ArmPressed | DisarmPressed | StopPressed, rules: Rules
+) -> Step:
     match event:
+        case StopPressed() if not rules.has_robot:
+            return s, (Say("STOP was pressed; there is no robot to stop"),)
         case StopPressed():
             return _ask_stop(s, event.t_s, StopReason.STOP_PRESSED, "STOP was pressed")
         case ArmPressed() if s.can_arm:

@@ -60,6 +60,7 @@ class Guardian:
         self._connect_s = float("-inf")
         self._born_s = time.monotonic()
         self._was_greeted = False
+        self._was_told = False
         self._gone_s: float | None = None
         self._is_leaving = False
         self.is_told_to_end = False
@@ -147,6 +148,7 @@ class Guardian:
         elif isinstance(message, m.Bye):
             self._is_leaving = True
         elif peer.role is m.Role.CONTROL or isinstance(message, m.Stop):
+            self._was_told = True
             self._supervisor.message(message, now_s)
             self._flush()
 
@@ -190,7 +192,9 @@ class Guardian:
     # The controller's connection.
 
     def _keep_robot(self, now_s: float) -> None:
-        if not self._start.host:
+        # A guardian that follows a dead one is told to stop first: until it has been told
+        # anything, it does not even read, so that HOLD can be the first request.
+        if not self._start.host or not self._was_told:
             return
         if self._robot is None:
             pause_s = 0.02 if self._supervisor.is_stopping else RETRY_S

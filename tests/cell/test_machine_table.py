@@ -312,3 +312,11 @@ def test_a_proposal_carries_the_label_and_the_time_of_its_decision():
 def test_every_stop_of_the_left_sensor_says_what_was_wrong_with_it():
     _, effects = step(STATES["moving"], EVENTS["left lost"], Rules())
     assert effects == (e.SendStop(StopReason.LEFT_SILENT, "left sensor no data"),)
+
+
+@pytest.mark.parametrize("state", ["not ready", "ready"])
+def test_stop_without_any_robot_is_told_and_asks_nobody(state: str):
+    rules = Rules(has_robot=False)
+    after, effects = step(STATES[state], e.StopPressed(NOW_S), rules)
+    assert after == STATES[state]
+    assert [type(effect) for effect in effects] == [e.Say]
