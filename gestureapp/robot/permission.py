@@ -43,13 +43,14 @@ class Permission:
             return m.ArmRefused(refusal)
         return None
 
-    def lose(self, text: str) -> list[m.FromGuardian]:
-        """Take it back, given or on its way; what the application has to know."""
-        told: list[m.FromGuardian] = []
-        if self._until_s is not None:
-            self._until_s = None
-            told.append(m.ArmRefused(Refusal("given_up", text)))
-        if self.is_armed:
-            self.is_armed = False
-            told.append(m.Disarmed())
-        return told
+    def give_up(self, text: str) -> m.ArmRefused | None:
+        """End an arming that is under way."""
+        if self._until_s is None:
+            return None
+        self._until_s = None
+        return m.ArmRefused(Refusal("given_up", text))
+
+    def lose(self) -> m.Disarmed | None:
+        """Take it back, if it was given."""
+        was_armed, self.is_armed = self.is_armed, False
+        return m.Disarmed() if was_armed else None

@@ -26,8 +26,7 @@ from gestureapp.robot.values import Pose, Refusal, RobotStatus, StopReason
 from gestureapp.robot.watchdog import Cause, find_change, find_left_end, find_stale, next_look_s
 
 DECIDING_S = 0.3
-"""A decision follows the left arm's start within the 160 ms budget; the line is kept
-free meanwhile."""
+"""A decision follows the left arm's start within 160 ms; the line is kept free meanwhile."""
 
 
 class Supervisor:
@@ -150,9 +149,11 @@ class Supervisor:
         self._release.cancel()
         if reason.is_latched:
             self._permission.latch = self.latch or reason
-            self._lose_permission(text)
+            self._out.tell(self._permission.give_up(text))
         if self._stop.ask(reason, now_s):
             self._out.tell(m.StopAsked(reason, text, now_s))
+        if reason.is_latched:  # told after the reason, or the cell would take it for one
+            self._out.tell(self._permission.lose())
         if (withdrawn := self._exchange.withdraw()) is not None:
             self._forget_robot(withdrawn.reason)
 
@@ -190,7 +191,7 @@ class Supervisor:
 
     def _lose_permission(self, text: str) -> None:
         self._release.cancel()
-        self._out.tell(*self._permission.lose(text))
+        self._out.tell(self._permission.give_up(text), self._permission.lose())
 
     def _ask_servo(self) -> None:
         """Now or not at all: servo power never comes on later, when nobody expects it."""

@@ -233,7 +233,8 @@ def test_permission_that_nobody_asked_for_is_not_given():
 
     assert permission.settle(None, 0.0) is None
     assert not permission.is_armed
-    assert permission.lose("x") == []
+    assert permission.give_up("x") is None
+    assert permission.lose() is None
 
 
 def test_a_release_goes_position_hold_off_state_and_says_once_that_it_is_done():

@@ -42,6 +42,14 @@ def test_every_stop_but_the_left_arms_is_latched_and_left_only_by_arming(cell, r
     assert len(cell.payloads()) == 2
 
 
+def test_the_reason_of_a_stop_is_told_before_the_permission_is_lost(cell):
+    cell.move()
+    cell.stop(StopReason.STOP_PRESSED)
+
+    words = [type(x) for _, x in cell.told if isinstance(x, m.StopAsked | m.Disarmed)]
+    assert words == [m.StopAsked, m.Disarmed]
+
+
 def test_the_left_arms_own_stop_keeps_the_permission_and_releases_the_hold(cell):
     cell.move()
     cell.posture = "neither"
