@@ -125,19 +125,18 @@ class Bench:
         self.operator.right_rest()
         self.nx100.fault(Fault())
         self.until(lambda s: s.state is not CellState.STOPPING)
-        if self.now.state in (CellState.STOPPED, CellState.READY, CellState.NOT_READY):
-            self.until(self._can_arm, 10.0)
-            self.cell.arm()
-        snapshot = self.reach(CellState.ARMED)
+        snapshot = self.until(self._is_armed, 15.0)
         self.nx100.place(HOME)
         self.settle()
         return snapshot
 
-    def _can_arm(self, snapshot: Snapshot) -> bool:
-        """Whether arming would be taken; servo power is switched on as a person would."""
+    def _is_armed(self, snapshot: Snapshot) -> bool:
+        """Whether it is; presses Servo on and Arm as a person would, and again when refused."""
         if any("servo power" in blocker.text for blocker in snapshot.blockers):
             self.cell.servo_on()
-        return snapshot.can_arm
+        if snapshot.can_arm:
+            self.cell.arm()
+        return snapshot.state is CellState.ARMED
 
     def settle(self) -> None:
         """Until the position read back is where the arm is and the state is known to be free."""
