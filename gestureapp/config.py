@@ -90,7 +90,8 @@ class RobotSettings:
         ry_range_deg: Lowest and highest Ry.
         rz_range_deg: Lowest and highest Rz.
         margin_deg: How far before the end of a range a rotation ends.
-        frame: Coordinate frame of the increment: 0 base, 1 robot, 2 to 25 user 1 to 24.
+        frame: Coordinate frame of the increment: 0 base or 1 robot; the field of operation
+            is known in no other.
         tool: Tool number, 0 to 23.
     """
 

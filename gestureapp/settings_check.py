@@ -83,7 +83,7 @@ RANGES: Final[Mapping[tuple[type, str], Range]] = {
     (RobotSettings, "ry_range_deg"): Range(-360.0, 360.0),
     (RobotSettings, "rz_range_deg"): Range(-360.0, 360.0),
     (RobotSettings, "margin_deg"): Range(0.1, 45.0),
-    (RobotSettings, "frame"): Range(0, 25),
+    (RobotSettings, "frame"): Range(0, 1),
     (RobotSettings, "tool"): Range(0, 23),
 }
 """Every number has one (a test sees to it)."""

@@ -103,11 +103,11 @@ def test_every_kind_of_value_is_taken(layer):
 
 
 def test_the_file_named_by_hand_is_the_top_layer(layer):
-    site = layer(_site("[robot]\ntool = 3\nframe = 2"))
+    site = layer(_site("[robot]\ntool = 3\nframe = 0"))
     named = layer(_site("[robot]\ntool = 4"), "mine.toml")
     loaded, found = load_settings([site], named)
     assert found == []
-    assert (loaded.robot.tool, loaded.robot.frame) == (4, 2)
+    assert (loaded.robot.tool, loaded.robot.frame) == (4, 0)
 
 
 def test_a_byte_order_mark_and_windows_lines_are_read(tmp_path):
@@ -214,7 +214,7 @@ def test_a_user_file_never_widens_what_the_site_allows(tmp_path_factory, site, u
         ("robot", "margin_mm", 1.0, 200.0, 0.1),
         ("robot", "port", 1, 65535, 1),
         ("robot", "tool", 0, 23, 1),
-        ("robot", "frame", 0, 25, 1),
+        ("robot", "frame", 0, 1, 1),
     ],
 )
 def test_limits_are_allowed_and_what_lies_beyond_is_not(layer, table, name, low, high, step):

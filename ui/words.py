@@ -77,6 +77,7 @@ def robot_chip(robot: RobotView) -> Chip:
         (not status.is_remote, Level.ATTENTION, "not in remote"),
         (not status.is_servo_on, Level.ATTENTION, "servo off"),
         (robot.pose is not None and robot.pose_age_s > _OLD_POSE_S, Level.ATTENTION, "silent"),
+        (robot.is_moving, Level.BUSY, "moving"),
         (status.is_running, Level.BUSY, "running"),
     ):
         if is_so:

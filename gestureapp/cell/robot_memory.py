@@ -33,6 +33,7 @@ class RobotMemory:
         self.pose_s = float("-inf")
         self._address = address
         self._alarms: tuple[int, ...] = ()
+        self._is_moving = False
         self._increment: PoseIncrement | None = None
         self._start: Pose | None = None
         self._limited_by = ""
@@ -45,7 +46,7 @@ class RobotMemory:
                 self.is_open = message.is_open
                 self.text = message.text if self._address else _NO_ADDRESS
                 if not message.is_open:
-                    self.status = None
+                    self.status, self._is_moving = None, False
             case m.StatusReport():
                 self.status = RobotStatus(message.data_1, message.data_2)
                 self.status_s, self._alarms = message.t_s, message.alarms
@@ -56,6 +57,10 @@ class RobotMemory:
                 self._limited_by = message.limited_by
                 unit = "deg/s" if message.is_rotation else "mm/s"
                 self._speed = f"{message.speed:.1f} {unit}"
+            case m.CommandAccepted():
+                self._is_moving = True
+            case m.CommandRefused() | m.MotionEnded() | m.StopConfirmed():
+                self._is_moving = False
 
     def view(self, now_s: float) -> RobotView:
         """For the window."""
@@ -67,6 +72,7 @@ class RobotMemory:
             status=self.status,
             pose=self.pose,
             pose_age_s=now_s - self.pose_s,
+            is_moving=self._is_moving,
             increment=self._increment,
             start=self._start,
             limited_by=self._limited_by,

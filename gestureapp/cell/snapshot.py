@@ -70,6 +70,7 @@ class RobotView:
         status: Last RSTATS, or None.
         pose: Last RPOSC, or None.
         pose_age_s: How old that is; infinite before the first.
+        is_moving: A move that it has accepted has not been read back as ended.
         increment: The move under way or the last one, or None.
         start: Where that move began, or None.
         limited_by: What ends it, in words.
@@ -81,6 +82,7 @@ class RobotView:
     status: RobotStatus | None = None
     pose: Pose | None = None
     pose_age_s: float = float("inf")
+    is_moving: bool = False
     increment: PoseIncrement | None = None
     start: Pose | None = None
     limited_by: str = ""

@@ -21,9 +21,10 @@ METADATA_NAME: Final = "session"
 TIME_KEY: Final = "t_s"
 RECORD_TIME_KEY: Final = "record_t_s"
 OPEN_TOPICS: Final = frozenset({Topic.INPUT, Topic.COMMAND})
-"""Topics whose fields the cell chooses. Infinity and NaN are kept there, as text (JSON has no
-number for them), because a replay needs them; on the other topics they become null."""
+"""Topics whose fields the cell chooses. Infinity and NaN are kept there as ``{"number": "NaN"}``
+(JSON has no number for them), because a replay needs them; on the other topics they become null."""
 
+_NUMBER_KEY: Final = "number"
 _NON_FINITE: Final = {"Infinity": math.inf, "-Infinity": -math.inf, "NaN": math.nan}
 
 Schema = Mapping[str, Json]
@@ -192,12 +193,15 @@ def _finite_or_text(value: float, keep_non_finite: bool) -> Json:
         return value
     if not keep_non_finite:
         return None
-    return "NaN" if math.isnan(value) else "Infinity" if value > 0 else "-Infinity"
+    name = "NaN" if math.isnan(value) else "Infinity" if value > 0 else "-Infinity"
+    return {_NUMBER_KEY: name}
 
 
 def _restored(value: Any) -> Any:  # noqa: ANN401 - any JSON value
     if isinstance(value, dict):
+        if value.keys() == {_NUMBER_KEY} and value[_NUMBER_KEY] in _NON_FINITE:
+            return _NON_FINITE[value[_NUMBER_KEY]]
         return {key: _restored(item) for key, item in value.items()}
     if isinstance(value, list):
         return [_restored(item) for item in value]
-    return _NON_FINITE.get(value, value) if isinstance(value, str) else value
+    return value
