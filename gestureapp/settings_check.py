@@ -3,6 +3,7 @@
 Pure. What is wrong comes out as findings, all of them at once; nothing is raised.
 """
 
+import ipaddress
 import math
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, fields, is_dataclass
@@ -80,7 +81,8 @@ RANGES: Final[Mapping[tuple[type, str], Range]] = {
     (RobotSettings, "speed_deg_s"): Range(0.5, 30.0),
     # A tool that points down reads Rx = 180, so a range about it passes 180: up to a full turn.
     (RobotSettings, "rx_range_deg"): Range(-360.0, 360.0),
-    (RobotSettings, "ry_range_deg"): Range(-360.0, 360.0),
+    # Beyond a right angle the same orientation is read back as other angles.
+    (RobotSettings, "ry_range_deg"): Range(-90.0, 90.0),
     (RobotSettings, "rz_range_deg"): Range(-360.0, 360.0),
     (RobotSettings, "margin_deg"): Range(0.1, 45.0),
     (RobotSettings, "frame"): Range(0, 1),
@@ -160,6 +162,8 @@ def named_values(settings: Settings) -> Iterator[tuple[str, type, Any]]:
 
 def why_out_of_range(owner: type, name: str, value: object) -> str:
     """What is wrong with one value by itself, and what is allowed; empty when nothing is."""
+    if (owner, name) == (RobotSettings, "host"):
+        return _why_no_address(value)
     allowed = RANGES.get((owner, name))
     if allowed is None:
         return ""
@@ -169,6 +173,15 @@ def why_out_of_range(owner: type, name: str, value: object) -> str:
     if name.endswith("_range_deg") and not numbers[0] < numbers[1]:
         return f"{shown(value)} is no range; the first number must be below the second"
     return ""
+
+
+def _why_no_address(host: object) -> str:
+    """A name would have to be looked up by the guardian, while a stop waits for the line."""
+    try:
+        is_address = host in ("", "localhost") or bool(ipaddress.ip_address(str(host)))
+    except ValueError:
+        is_address = False
+    return "" if is_address else f"{shown(host)} is no address; give the controller's IP address"
 
 
 def bad_pairs(values: Mapping[str, Any]) -> list[tuple[str, str]]:
