@@ -10,7 +10,7 @@ from ui.labels import plain
 from ui.theme import TEXT_PX, colours_of, sized
 
 UNCONFIRMED = "ROBOT HAS NOT CONFIRMED THE STOP. USE THE EMERGENCY STOP ON THE PENDANT"
-"""Source: features.md 3.1. Here the words mean the real one."""
+"""Here the words mean the real one, the hardware."""
 _BEEP_EVERY_S = 1.0
 
 

@@ -17,7 +17,7 @@ from gestureapp.clock import Clock, monotonic
 from ui.theme import colours_of
 
 HOLD_S = 1.0
-"""Source: features.md 3.1, hold-to-confirm."""
+"""Long enough not to happen by a brush of the hand, short enough not to be a nuisance."""
 _TICK_MS = 20
 _LONGEST_STEP_S = 0.1
 """A stalled window must not count the stall as holding: the release may still wait in the queue."""

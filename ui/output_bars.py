@@ -9,7 +9,7 @@ from gestureapp.recognition.values import Candidate
 from ui.theme import SMALL_PX, colours_of
 
 THRESHOLD = 0.5
-"""Source: issue 2; exactly one output has to reach it."""
+"""Source: the paper, section IV.C; exactly one output has to reach it."""
 _LABEL_PX = 15
 _NUMBER_PX = 12
 

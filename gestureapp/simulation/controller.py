@@ -1,6 +1,6 @@
 """The emulated NX100's state: modes, holds, servo, alarms, one move at a time. Pure.
 
-Written from the documents (`nx100.md`), independently of the client, so that a mistake of the
+Written from the documents, independently of the client, so that a mistake of the
 client cannot hide here. Where no document says what a controller does, the docstring names the
 choice.
 """

@@ -4,9 +4,10 @@ Robot frame: origin on the S axis at the height of the L axis, +X forward, +Y le
 angles in degrees, all zero with the lower arm upright and the forearm level; L positive forwards, U
 and B positive upwards, S, R and T right-handed about their axes' outward direction.
 
-Source of the lengths: `nx100.md` section 5. The pulses per degree of an HP6 are published nowhere
-that we found; ours are inventions inside the range other Motomans have (450 to 2400), so RPOSJ of
-the emulator is consistent with its pose but does not carry over to a real robot.
+Source of the lengths: published kinematic models of the HP6, checked against its reach. The pulses
+per degree of an HP6 are published nowhere that we found; ours are inventions inside the range other
+Motomans have (450 to 2400), so RPOSJ of the emulator is consistent with its pose but does not carry
+over to a real robot.
 """
 
 import math
@@ -36,7 +37,7 @@ _HOME_TOOL: Matrix = ((0.0, 0.0, 1.0), (0.0, -1.0, 0.0), (1.0, 0.0, 0.0))
 
 
 def rotation(rx_deg: float, ry_deg: float, rz_deg: float) -> Matrix:
-    """Give Rz * Ry * Rx. Source: DX100 easy-offline manual p. 53, in `nx100.md` section 5."""
+    """Give Rz * Ry * Rx. Source: DX100 easy-offline manual p. 53."""
     return times(times(_about_z(rz_deg), _about_y(ry_deg)), _about_x(rx_deg))
 
 

@@ -18,7 +18,7 @@ IMOV_FIELDS = 17
 OPERAND_MAX_CHARS = 32
 SPEEDS_MM_S = (0.1, 1500.0)
 SPEEDS_DEG_S = (0.1, 180.0)
-"""Source: INFORM's limits for V and VR, from memory; `nx100.md` section 2.3."""
+"""Source: INFORM's limits for V and VR, from memory."""
 TOOL_MAX = 23
 FRAME_MAX = 25
 """User frame 24. The tool frame's code on an NX100 is not known, so it is refused."""
@@ -247,6 +247,6 @@ def _pose_line(pose: Pose, joints: hp6.Joints) -> str:
 def _posture(joints: hp6.Joints) -> int:
     """Give Type: the arm is in front, its elbow up, no axis beyond 180 degrees; so only no-flip.
 
-    Source: `nx100.md` section 2.1.
+    Source: the Type bits of the NX100 data transmission manual, p. 76.
     """
     return 1 if abs(joints[3]) <= 90.0 else 0

@@ -135,7 +135,7 @@ class Conversation:
             self._accept(event, now_s)
 
     def _greet(self, event: Connected, now_s: float) -> None:
-        """Source: `nx100.md` 1.2; the tail was recorded on a DX100, its prefix on an NX100."""
+        """The tail was recorded on a DX100, its prefix on an NX100."""
         self._budget = 1 if event.keep_alive is None else event.keep_alive
         kept = "" if event.keep_alive is None else f" Keep-Alive:{event.keep_alive}"
         banner = f"OK: NX Information Server( {self._options.version}){kept}.\r\n"

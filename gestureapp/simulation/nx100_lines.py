@@ -1,6 +1,7 @@
 """The NX100's requests as lines: bytes of one connection in, requests out. Pure; never raises.
 
-A line ends at CR; one LF after it belongs to it, whenever it arrives. Source: `nx100.md` section 1.
+A line ends at CR; one LF after it belongs to it, whenever it arrives. Source: DX200 Ethernet
+manual p. 15.
 """
 
 from dataclasses import dataclass

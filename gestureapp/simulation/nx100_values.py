@@ -9,7 +9,7 @@ from gestureapp.simulation import hp6
 
 
 class Code(IntEnum):
-    """What a command is answered with. Source: interpreter codes, `nx100.md` section 3.2."""
+    """What a command is answered with. Source: interpreter codes of Yaskawa's HSES dissector."""
 
     OK = 0
     OPERAND_COUNT = 1011
@@ -61,7 +61,7 @@ ALARM_BIT, ERROR_BIT, SERVO_BIT = 0x10, 0x20, 0x40
 LIMIT_ALARM = 4416
 """Pulse limit. From memory of the DX100's list; the NX100's was not available."""
 CONTACTS = range(22010, 23288)
-"""Network inputs, the only ones that can be written. Source: `nx100.md` section 2.5."""
+"""Network inputs, the only ones that can be written. Source: an NX100 client's notes."""
 MAX_ALARMS = 4
 START_POSE = Pose(800.0, 0.0, 300.0, 180.0, 0.0, 0.0)
 """In front of the robot, the tool pointing down."""
