@@ -4,6 +4,7 @@ Nothing here is a test: figures are printed, never judged.
 """
 
 from gestureapp.benchmark.report import Report
+from gestureapp.errors import ConfigError
 from gestureapp.window_port import OpenWindow
 
 
@@ -16,15 +17,14 @@ def measure(what: str, seconds: float, open_window: OpenWindow | None) -> Report
         open_window: Opens the window that is drawn meanwhile; needed for all but ``training``.
 
     Raises:
-        GestureAppError: the cell could not be started.
-        ValueError: there is no such figure, or no window to draw.
+        GestureAppError: the cell could not be started, there is no such figure, or no window.
     """
     if what == "training":
         from gestureapp.benchmark.training import measure_training
 
         return measure_training()
     if open_window is None:
-        raise ValueError(f"benchmark {what} needs the window: run it as gestureapp")
+        raise ConfigError("benchmark", what, "needs the window: run it as gestureapp")
     if what == "latency":
         from gestureapp.benchmark.latency import measure_latency
 
@@ -37,4 +37,4 @@ def measure(what: str, seconds: float, open_window: OpenWindow | None) -> Report
         from gestureapp.benchmark.startup import measure_startup
 
         return measure_startup()
-    raise ValueError(f"no figure is called {what!r}")
+    raise ConfigError("benchmark", what, "is no figure")
