@@ -1,12 +1,18 @@
 """What every test gets: nothing left running, and no warning nobody announced."""
 
 import logging
+import os
 import threading
 from collections.abc import Iterator
 
 import pytest
+from hypothesis import settings
 
 JOIN_LIMIT_S = 3.0
+
+if not os.environ.get("CI"):  # there hypothesis brings its own profile: the same examples every time
+    settings.register_profile("here", deadline=None)  # a busy machine is no failure
+    settings.load_profile("here")
 
 
 @pytest.fixture(autouse=True)
