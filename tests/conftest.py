@@ -10,7 +10,7 @@ from hypothesis import settings
 
 JOIN_LIMIT_S = 3.0
 
-if not os.environ.get("CI"):  # there hypothesis brings its own profile: the same examples every time
+if not os.environ.get("CI"):  # there hypothesis has its own profile, with the same examples always
     settings.register_profile("here", deadline=None)  # a busy machine is no failure
     settings.load_profile("here")
 

@@ -3,7 +3,6 @@
 import contextlib
 import json
 import subprocess
-import tempfile
 import threading
 import time
 from collections.abc import Callable, Iterator
@@ -128,35 +127,37 @@ class Truth:
         return None
 
 
-def perform(script: Callable[[Stage], None], open_window: OpenWindow) -> Truth:
+def perform(script: Callable[[Stage], None], open_window: OpenWindow, folder: Path) -> Truth:
     """Run a script on a demo cell with its window drawn.
+
+    Args:
+        script: What is done with it, in a thread of its own.
+        open_window: Opens the window.
+        folder: For the session and the controller's log; they are read afterwards.
 
     Raises:
         GestureAppError: the cell could not be started, or the script could not go on.
     """
-    with tempfile.TemporaryDirectory() as folder:
-        log_file = Path(folder) / "nx100.jsonl"
-        demo = DemoOptions(nx100_arguments=("--log", str(log_file)))
-        troubles: list[WorkerError] = []
-        with running_cell(Settings(), Path(folder), demo) as running:
+    log_file = folder / "nx100.jsonl"
+    demo = DemoOptions(nx100_arguments=("--log", str(log_file)))
+    troubles: list[WorkerError] = []
+    with running_cell(Settings(), folder, demo) as running:
 
-            def driver(hands: WindowHands) -> None:
-                try:
-                    script(Stage(running, hands))
-                except WorkerError as error:
-                    troubles.append(error)
-                finally:
-                    hands.close()
+        def driver(hands: WindowHands) -> None:
+            try:
+                script(Stage(running, hands))
+            except WorkerError as error:
+                troubles.append(error)
+            finally:
+                hands.close()
 
-            open_window(running, None, driver)
-        if troubles:
-            raise troubles[0]
-        session = running.recorder.path
-        assert session is not None
-        kept = Path(tempfile.mkdtemp()) / session.name
-        kept.write_bytes(session.read_bytes())
-        requests, ends_s = _read_log(log_file)
-        return Truth(kept, requests, ends_s)
+        open_window(running, None, driver)
+    if troubles:
+        raise troubles[0]
+    session = running.recorder.path
+    assert session is not None
+    requests, ends_s = _read_log(log_file)
+    return Truth(session, requests, ends_s)
 
 
 @contextlib.contextmanager

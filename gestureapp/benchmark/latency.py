@@ -12,6 +12,8 @@ from gestureapp.window_port import OpenWindow
 
 AIM = "99 % within 10 ms"
 LABELS = ("X+", "X-")
+ARRIVES_S = 0.5
+"""An IMOV that the controller hears within this after the guardian sent one is that one."""
 MOVE_S = 0.15
 """How long each move goes on: long enough to be one, short enough for many of them."""
 
@@ -23,13 +25,14 @@ def measure_latency(seconds: float, open_window: OpenWindow) -> Report:
 
     rows: list[Row] = []
     notes: list[str] = []
-    with tempfile.TemporaryDirectory() as folder:
-        takes = Path(folder) / "takes.npz"
+    with tempfile.TemporaryDirectory() as name:
+        folder = Path(name)
+        takes = folder / "takes.npz"
         save_takes(takes, make_takes(1, 30, 7))
         for words, beside in (("window drawing", None), ("with a training beside", takes)):
             with training_beside(beside):
                 script = _Script(seconds)
-                truth = perform(script, open_window)
+                truth = perform(script, open_window, folder)
             rows += _rows(words, script, truth)
             notes.append(f"{words}: {script.n_moves} moves, {script.n_surprises} unasked stops")
     return Report("Last sample written to IMOV received", rows, notes)
@@ -59,7 +62,7 @@ class _Script:
 def _rows(words: str, script: _Script, truth: Truth) -> list[Row]:
     counters: dict[float, int] = {}
     ends: dict[int, tuple[float, float]] = {}
-    commanded: list[int] = []
+    commanded: list[tuple[int, float]] = []
     for read in read_session(truth.session).records():
         record, fields = read.record, read.record.fields
         if record.topic is Topic.RIGHT_ACCEL and fields["counter"] is not None:
@@ -68,13 +71,15 @@ def _rows(words: str, script: _Script, truth: Truth) -> list[Row]:
             times = (float(str(fields["window_end_s"])), float(str(fields["decided_s"])))
             ends[int(str(fields["activation_id"]))] = times
         elif record.topic is Topic.COMMAND and fields["type"] == "CommandSent":
-            commanded.append(int(str(fields["activation_id"])))
+            sent = (int(str(fields["activation_id"])), float(str(fields["t_s"])))
+            commanded.append(sent)
     decided, first, last = [], [], []
     moves = [request for request in truth.requests if request.name == "IMOV"]
-    for activation_id, move in zip(commanded, moves, strict=False):
+    for activation_id, commanded_s in commanded:
         window_end_s, decided_s = ends[activation_id]
         sent_s = script.sent_s.get(counters.get(window_end_s, -1))
-        if sent_s is not None:
+        move = next((m for m in moves if 0 <= m.first_s - commanded_s < ARRIVES_S), None)
+        if sent_s is not None and move is not None:
             decided.append(1000 * (decided_s - sent_s))
             first.append(1000 * (move.first_s - sent_s))
             last.append(1000 * (move.last_s - sent_s))

@@ -1,6 +1,8 @@
 """From STOP pressed, and from the left sensor's last sample, to HOLD at the controller."""
 
+import tempfile
 from collections.abc import Callable
+from pathlib import Path
 
 from gestureapp.benchmark.driven import Stage, Truth, perform
 from gestureapp.benchmark.report import Report, Row
@@ -16,10 +18,11 @@ TRIP_MS = 1000 * SiteSettings().trip_level_s
 
 def measure_stop(seconds: float, open_window: OpenWindow) -> Report:
     """STOP pressed with the mouse while moving; the left sensor silenced while moving."""
-    pressed = _Script(seconds, _press)
-    rows = _rows("STOP pressed", pressed, perform(pressed, open_window), 0.0, "99 % within 20 ms")
-    silenced = _Script(seconds, _silence)
-    truth = perform(silenced, open_window)
+    pressed, silenced = _Script(seconds, _press), _Script(seconds, _silence)
+    with tempfile.TemporaryDirectory() as name:
+        truth = perform(pressed, open_window, Path(name))
+        rows = _rows("STOP pressed", pressed, truth, 0.0, "99 % within 20 ms")
+        truth = perform(silenced, open_window, Path(name))
     words = f"left sensor silent, beyond the trip level of {TRIP_MS:.0f} ms"
     rows += _rows(words, silenced, truth, TRIP_MS, "at most 20 ms")
     surprises = pressed.n_surprises + silenced.n_surprises
