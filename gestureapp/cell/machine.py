@@ -79,6 +79,7 @@ class MachineState:
         is_left_rested: The left arm was seen in stop since the last activation.
         blockers: What stands against arming.
         arming_since_s: When permission was asked for; None once the guardian has answered.
+        has_permission: The guardian has taken the operator's permission and not lost it.
         is_proposed: A proposal is out for the present activation.
         stop_reason: Of the last stop.
         note: Why it is in this state, for a person.
@@ -93,6 +94,7 @@ class MachineState:
     is_left_rested: bool = False
     blockers: tuple[Blocker, ...] = ()
     arming_since_s: float | None = None
+    has_permission: bool = False
     is_proposed: bool = False
     stop_reason: StopReason | None = None
     note: str = ""
@@ -232,15 +234,16 @@ def _disarm(s: MachineState, t_s: float) -> Step:
     if s.is_arming and s.state is CellState.STOPPED:
         return replace(s, arming_since_s=None), (SendDisarm(),)
     if s.is_arming or s.state is CellState.ARMED:
-        s = replace(s, arming_since_s=None)
-        return _enter(s, CellState.NOT_READY, t_s, "disarmed"), (SendDisarm(),)
+        s = replace(s, arming_since_s=None, has_permission=False)
+        s = _enter(s, CellState.NOT_READY, t_s, "disarmed")
+        return s, (SendDisarm(), Say("disarmed"))
     return s, ()
 
 
 def _permission(s: MachineState, event: ArmTaken | ArmDenied | PermissionLost) -> Step:
     match event:
         case ArmTaken() if s.is_arming and s.is_at_rest and not s.blockers:
-            s = replace(s, arming_since_s=None, stop_reason=None)
+            s = replace(s, arming_since_s=None, has_permission=True, stop_reason=None)
             return _enter(s, CellState.ARMED, event.t_s, ""), (Say("armed"),)
         case ArmTaken() if s.is_arming and s.is_at_rest:
             s = _arm_denied(s, s.blockers[0].text)
@@ -250,11 +253,17 @@ def _permission(s: MachineState, event: ArmTaken | ArmDenied | PermissionLost) -
         case ArmDenied() if s.is_arming:
             s = _arm_denied(s, event.text)
             return s, (Say(s.note),)
-        case PermissionLost() if s.state is CellState.ARMED:
-            return _enter(s, CellState.NOT_READY, event.t_s, "disarmed by the guardian"), ()
-        case PermissionLost() if s.state in _PERMITTED:
-            text = "the guardian took the permission away"
-            return _ask_stop(s, event.t_s, StopReason.CELL_FAULT, text)
+        case PermissionLost():
+            return _permission_lost(replace(s, has_permission=False), event.t_s)
+    return s, ()
+
+
+def _permission_lost(s: MachineState, t_s: float) -> Step:
+    if s.state is CellState.ARMED:
+        return _enter(s, CellState.NOT_READY, t_s, "disarmed by the guardian"), ()
+    if s.state in _PERMITTED:
+        text = "the guardian took the permission away"
+        return _ask_stop(s, t_s, StopReason.CELL_FAULT, text)
     return s, ()
 
 
@@ -285,14 +294,16 @@ def _stop(s: MachineState, event: StopTaken | StopDone | StopOpen) -> Step:
         case StopTaken():
             effects = (EndCollecting(),) if s.state is CellState.ACTIVATED else ()
             said = Say(event.text, is_alarm=event.reason.is_latched)
-            if _is_latched_stop(s) and not event.reason.is_latched:
+            # The left arm's own stop, told late, takes nobody out of a stop that is latched.
+            if not event.reason.is_latched and (s.is_at_rest or _is_latched_stop(s)):
                 return s, (said,)
             s = _enter_stopping(s, event.reason, event.t_s, event.text)
             return s, (*effects, said)
         case StopDone() if s.state is CellState.STOPPING:
             s = replace(s, is_stop_unconfirmed=False)
             reason = s.stop_reason or event.reason
-            after = CellState.STOPPED if reason.is_latched else CellState.ARMED
+            is_armed = s.has_permission and not reason.is_latched
+            after = CellState.ARMED if is_armed else CellState.STOPPED
             return _enter(s, after, event.t_s, s.note), (Say("the robot stands, read back"),)
         case StopOpen() if s.state is CellState.STOPPING:
             said = Say(f"the robot has not confirmed the stop: {event.text}", is_alarm=True)

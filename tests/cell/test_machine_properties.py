@@ -208,7 +208,23 @@ def test_a_latched_reason_ends_in_stopped_and_only_the_left_arms_own_in_armed(
             reason = lived.before.stop_reason
             assert isinstance(lived.event, e.StopDone)
             assert reason is not None
-            assert lived.after.state is (S.STOPPED if reason.is_latched else S.ARMED)
+            is_armed = lived.before.has_permission and not reason.is_latched
+            assert lived.after.state is (S.ARMED if is_armed else S.STOPPED)
+
+
+@given(LIFE, RULES)
+def test_nothing_but_the_guardians_permission_leads_from_rest_to_armed(
+    life: list[Happening], rules: Rules
+):
+    has_permission = False
+    for lived in live(life, rules).steps:
+        if isinstance(lived.event, e.PermissionLost):
+            has_permission = False
+        elif isinstance(lived.event, e.ArmTaken) and lived.after.state is S.ARMED:
+            has_permission = True
+        elif lived.after.state in (S.STOPPED, S.READY, S.NOT_READY):
+            has_permission = False
+        assert has_permission or lived.after.state is not S.ARMED
 
 
 @given(LIFE, RULES)

@@ -19,16 +19,19 @@ BLOCKER = Blocker("servo", "servo power is off", "press Servo on")
 S = CellState
 BASE = MachineState(since_s=99.9, activation_id=ID, posture=ArmPosture.STOP, stop_since_s=90.0)
 
+ARMED = replace(BASE, has_permission=True)
+
 STATES = {
     "not ready": replace(BASE, state=S.NOT_READY, blockers=(BLOCKER,)),
     "ready": replace(BASE, state=S.READY, is_left_rested=True),
     "arming": replace(BASE, state=S.READY, is_left_rested=True, arming_since_s=99.9),
-    "armed": replace(BASE, state=S.ARMED, is_left_rested=True),
-    "armed, not rested": replace(BASE, state=S.ARMED, posture=ArmPosture.START),
-    "activated": replace(BASE, state=S.ACTIVATED, posture=ArmPosture.START),
-    "proposed": replace(BASE, state=S.ACTIVATED, posture=ArmPosture.START, is_proposed=True),
-    "moving": replace(BASE, state=S.MOVING, posture=ArmPosture.START, is_proposed=True),
-    "stopping, left arm": replace(BASE, state=S.STOPPING, stop_reason=StopReason.LEFT_ARM),
+    "armed": replace(ARMED, state=S.ARMED, is_left_rested=True),
+    "armed, not rested": replace(ARMED, state=S.ARMED, posture=ArmPosture.START),
+    "activated": replace(ARMED, state=S.ACTIVATED, posture=ArmPosture.START),
+    "proposed": replace(ARMED, state=S.ACTIVATED, posture=ArmPosture.START, is_proposed=True),
+    "moving": replace(ARMED, state=S.MOVING, posture=ArmPosture.START, is_proposed=True),
+    "stopping, left arm": replace(ARMED, state=S.STOPPING, stop_reason=StopReason.LEFT_ARM),
+    "stopping, not permitted": replace(BASE, state=S.STOPPING, stop_reason=StopReason.LEFT_ARM),
     "stopping, latched": replace(BASE, state=S.STOPPING, stop_reason=StopReason.STOP_PRESSED),
     "stopped": replace(BASE, state=S.STOPPED, stop_reason=StopReason.STOP_PRESSED),
     "stopped, blocked": replace(
@@ -113,7 +116,7 @@ ACTIVATED_ROW = {
 ARMED_ROW = {
     "left lost": STOP,
     "right lost": STOP,
-    "disarm": Then(S.NOT_READY, ("SendDisarm",)),
+    "disarm": Then(S.NOT_READY, ("SendDisarm", "Say")),
     "permission lost": Then(S.NOT_READY),
     "faulted": Then(S.STOPPING, ("SendStop", "Say")),
 }
@@ -129,7 +132,7 @@ ROWS: dict[str, dict[str, Then]] = {
     "arming": {
         "tick, blocked": Then(S.NOT_READY),
         "late tick": Then(S.READY, ("SendDisarm", "Say")),
-        "disarm": Then(S.NOT_READY, ("SendDisarm",)),
+        "disarm": Then(S.NOT_READY, ("SendDisarm", "Say")),
         "arm taken": Then(S.ARMED, ("Say",)),
         "arm denied": Then(S.READY, ("Say",)),
     },
@@ -158,6 +161,7 @@ ROWS: dict[str, dict[str, Then]] = {
         "faulted": Then(S.STOPPING, ("SendStop", "Say")),
     },
     "stopping, left arm": STOPPING_ROW | {"stop done": Then(S.ARMED, ("Say",))},
+    "stopping, not permitted": STOPPING_ROW | {"stop done": Then(S.STOPPED, ("Say",))},
     "stopping, latched": STOPPING_ROW | {"stop done": Then(S.STOPPED, ("Say",))},
     "stopped": {"arm": Then(S.STOPPED, ("SendArm",))},
     "stopped, blocked": {"arm": Then(S.STOPPED, ("Say",))},
@@ -176,6 +180,8 @@ def expected(state: str, event: str) -> Then:
         return own
     common = EVERYWHERE.get(event)
     before = STATES[state].state
+    if event == "left arm's stop taken" and STATES[state].is_at_rest:
+        return Then(before, ("Say",))  # told late: nobody is armed, nothing is left
     if common is None:
         return Then(before)
     return replace(common, state=before) if common.state is S.NOT_READY else common
