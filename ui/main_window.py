@@ -2,7 +2,7 @@
 
 import logging
 
-from PySide6.QtCore import Qt, QTimer
+from PySide6.QtCore import QSize, Qt, QTimer
 from PySide6.QtGui import QCloseEvent, QPalette, QResizeEvent
 from PySide6.QtWidgets import (
     QApplication,
@@ -207,7 +207,7 @@ class MainWindow(QMainWindow):
         column_of_all.addWidget(self._bars)
         column_of_all.addLayout(body, 1)
         self.setCentralWidget(whole)
-        self.setMinimumSize(*_LEAST)
+        self.setMinimumSize(QSize(*_LEAST).boundedTo(self.screen().availableSize()))
 
     def _panels(self) -> list[QFrame]:
         panels: list[QFrame] = [

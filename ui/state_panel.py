@@ -75,6 +75,9 @@ class StatePanel(QFrame):
             self._sentence.setAccessibleName(snapshot.sentence)
         has_permission = state in _WITH_PERMISSION
         status = snapshot.robot.status
+        if self._arm.hasFocus() and not snapshot.can_arm:
+            # Left to itself Qt hands the focus, and a key still held from arming, to Disarm.
+            self.setFocus()
         self._arm.setEnabled(snapshot.can_arm)
         self._disarm.setEnabled(has_permission)
         self._servo.setEnabled(

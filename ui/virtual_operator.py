@@ -125,7 +125,8 @@ class VirtualOperatorPanel(QFrame):
         button.setObjectName(name)
         button.setAccessibleName(f"{label} {words}, key {key}".strip())
         button.setAutoDefault(False)
-        button.setFocusPolicy(Qt.FocusPolicy.TabFocus)
+        # Each has a key of its own; with the focus, a Space still held from arming would press one.
+        button.setFocusPolicy(Qt.FocusPolicy.NoFocus)
         sized(button, SMALL_PX - 1)
         # The style's own margins are wider than nine columns allow on a small screen.
         button.setMinimumWidth(button.fontMetrics().horizontalAdvance(words) + 10)

@@ -88,10 +88,10 @@ class Guardian:
         for key, mask in sorted(ready, key=lambda item: item[0].fileobj is self._robot):
             if key.fileobj is self._listener:
                 self._accept()
-            elif key.fileobj is self._robot:
-                self._robot_ready(mask)
-            else:
+            elif key.data is not None:
                 self._peer_ready(key.data, mask)
+            elif key.fileobj is self._robot:  # else it was closed for what came before it
+                self._robot_ready(mask)
         self._keep_robot(time.monotonic())
         self._supervisor.tick(time.monotonic())
         self._flush()

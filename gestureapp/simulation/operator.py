@@ -118,7 +118,7 @@ class OperatorClient:
     def describe(self) -> str:
         """What both arms were told and what is wrong, in one line."""
         with self._changed:
-            parts = [f"Left arm {self._plan.left}", f"right arm {self._plan.right}"]
+            parts = [self._plan.words(self._clock())]
             parts += [f"{side.value} sensor {kind}" for side, kind in self._faults.items()]
             return "; ".join([*parts, *self._troubles.values()])
 

@@ -14,6 +14,9 @@ LEAD_S = 0.05
 STOP_HELD_S = 0.6
 """How long the stop posture is held before the next start: the cell wants to see it for 0.5 s."""
 
+SAID_AHEAD_S = 0.7
+"""A gesture that begins later than this is announced as waiting."""
+
 LEFT_DOWN_FACTOR = 1.1
 """The left arm's turn may take a little longer than its mean."""
 
@@ -84,6 +87,8 @@ class OperatorPlan:
     _right_begins_s: float = float("-inf")
     _right_is_turned: bool = False
     _right_home_s: float = float("-inf")
+    _home_before_s: float = float("-inf")
+    """When the hand is home if the gesture that was ordered last does not begin."""
 
     def left_start(self, now_s: float) -> list[Order]:
         """Raise the left arm now."""
@@ -100,6 +105,7 @@ class OperatorPlan:
 
     def right_rest(self, now_s: float) -> list[Order]:
         """Let the right hand go back to rest now."""
+        self._forget_unbegun(now_s)
         if self._right_is_turned and now_s >= self._right_begins_s:
             self._right_home_s = now_s + RIGHT_BACK_S
         self._right_is_turned = False
@@ -118,6 +124,7 @@ class OperatorPlan:
             KeyError: no gesture has this label.
         """
         wanted = gesture(label)
+        self._forget_unbegun(now_s)
         orders = self._lower_left(now_s) if self._is_left_up(now_s) else []
         if self._right_is_turned:
             orders += self.right_rest(now_s)
@@ -133,6 +140,7 @@ class OperatorPlan:
         left_s = activation_s - self.timing.start_seen_s
         self._left_up_s, self._right_begins_s = left_s, right_s
         self._right_is_turned = wanted.kind is Kind.POSTURE
+        self._home_before_s = self._right_home_s
         if not self._right_is_turned:
             self._right_home_s = right_s + self.timing.home_after_s
         self.left, self.right = "raised: start", f"{label}, {wanted.words}"
@@ -142,6 +150,18 @@ class OperatorPlan:
             Order(Side.LEFT, {"do": "take", "posture": start, "at_s": left_s}),
             Order(Side.RIGHT, {"do": "perform", "label": label, "at_s": right_s}),
         ]
+
+    def words(self, now_s: float) -> str:
+        """What both arms do, or will do and when."""
+        wait_s = max(self._left_up_s or now_s, self._right_begins_s) - now_s
+        if wait_s > SAID_AHEAD_S:
+            return f"In {wait_s:.0f} s, when both arms are free: {self.right}"
+        return f"Left arm {self.left}; right arm {self.right}"
+
+    def _forget_unbegun(self, now_s: float) -> None:
+        """A gesture that is replaced before it begins keeps nobody from home."""
+        if now_s < self._right_begins_s:
+            self._right_home_s = self._home_before_s
 
     def _is_left_up(self, now_s: float) -> bool:
         """Whether the left arm is up or will be before another order can reach it."""
