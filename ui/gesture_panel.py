@@ -66,23 +66,23 @@ class GesturePanel(QFrame):
         self._arrow.show_direction(direction)
         self._bars.show_outputs(recognition.outputs if recognition is not None else ())
         if recognition is None:
-            self._show(NOTHING, "no gesture yet", 0.0, "")
+            self._show(NOTHING, "no gesture yet", None, "")
         elif recognition.label is None:
-            best = recognition.best[0].confidence if recognition.best else 0.0
             reason = f"not recognised: {not_recognised_text(recognition)}"
-            self._show(UNSURE, reason, best, decision_text(recognition))
+            self._show(UNSURE, reason, None, decision_text(recognition))
         else:
             certainty = _certainty_of(recognition)
             words = _words_of(recognition.label)
             self._show(recognition.label, words, certainty, decision_text(recognition))
 
-    def _show(self, label: str, words: str, certainty: float, time: str) -> None:
+    def _show(self, label: str, words: str, certainty: float | None, time: str) -> None:
+        """``certainty`` is None where nothing was recognised: the bar then says nothing."""
         self._label.setText(label)
         self._label.setAccessibleName(f"Recognised gesture: {label} {words}")
         self._words.setText(words)
-        percent = round(100 * min(1.0, max(0.0, certainty)))
+        percent = round(100 * min(1.0, max(0.0, certainty or 0.0)))
         self._certainty.setValue(percent)
-        self._certainty.setFormat(f"certainty {certainty:.2f}" if time else "")
+        self._certainty.setFormat("" if certainty is None else f"certainty {certainty:.2f}")
         self._certainty.setAccessibleName(f"Certainty {percent} %")
         self._time.setText(time)
 

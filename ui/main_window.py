@@ -134,8 +134,9 @@ class MainWindow(QMainWindow):
         self._state.show_snapshot(snapshot)
         self._strip.show_snapshot(snapshot)
         self._blockers.show_blockers(snapshot.blockers)
-        is_waiting = snapshot.state in _BEFORE_A_MOVE and bool(snapshot.blockers)
-        self._motion.setVisible(not is_waiting)
+        is_before = snapshot.state in _BEFORE_A_MOVE
+        self._blockers.setVisible(is_before)
+        self._motion.setVisible(not (is_before and snapshot.blockers))
         self._motion.show_snapshot(snapshot)
         self._events.show_events(snapshot.events)
         recognition = snapshot.recognition

@@ -21,8 +21,7 @@ def _sentence(s: MachineState, drive_mode: DriveMode) -> str:
         case CellState.READY:
             return "Arming…" if s.is_arming else s.note or "Hold Arm for one second."
         case CellState.ARMED:
-            before = f"{s.note}. " if s.note else ""
-            return f"{before}Raise the left arm and make a gesture with the right."
+            return _armed(s)
         case CellState.ACTIVATED:
             return f"{s.note}. Asking the robot." if s.is_proposed else "Watching the right arm."
         case CellState.MOVING if drive_mode is DriveMode.HOLD_TO_RUN:
@@ -36,6 +35,13 @@ def _sentence(s: MachineState, drive_mode: DriveMode) -> str:
         case CellState.STOPPED:
             after = "Hold Arm for one second." if s.can_arm else _after_stop(s)
             return f"{s.note}. The robot stands. {after}"
+
+
+def _armed(s: MachineState) -> str:
+    before = f"{s.note}. " if s.note else ""
+    if not s.is_left_rested:
+        return f"{before}Lower the left arm to the stop posture first."
+    return f"{before}Raise the left arm and make a gesture with the right."
 
 
 def _after_stop(s: MachineState) -> str:

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from gestureapp.errors import ModelMismatch
 from gestureapp.recognition.model_file import Model
 from gestureapp.recognition.paper import SILENT_AFTER_S, PaperRecogniser
 from gestureapp.recognition.takes import TakeSet
@@ -109,7 +110,16 @@ def evaluate(model: Model, takes: TakeSet) -> Evaluation:
     """Feed every take to a fresh recogniser as it would come in, and count the answers.
 
     Takes of unknown rate are fed at 100 Hz.
+
+    Raises:
+        ModelMismatch: there are no takes, or none of a gesture that the model knows.
     """
+    known = set(model.labels) & set(takes.labels)
+    if not known:
+        found = ", ".join(sorted(set(takes.labels))[:6]) or "no takes at all"
+        wanted = ", ".join(model.labels)
+        reason = f"holds {found}; this model knows {wanted}: rename the labels or train a model"
+        raise ModelMismatch(takes.source, reason)
     rate_hz = takes.rate_hz or RATE_UNKNOWN_HZ
     answers = [
         follow(PaperRecogniser(model), takes.accel_g(i), int(takes.activation[i]), rate_hz, i)

@@ -144,6 +144,8 @@ def save_takes(path: Path, takes: TakeSet) -> None:
 
 
 def _read_arrays(path: Path) -> Mapping[str, NDArray[np.generic]]:
+    if path.exists() and not path.is_file():
+        raise RecordingInvalid(path, "is not a file; name an NPZ file of takes")
     try:
         with path.open("rb") as file:
             if not zipfile.is_zipfile(file):

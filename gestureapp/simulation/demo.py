@@ -91,7 +91,11 @@ class DemoCell:
             self.close()
             raise
         self.operator = OperatorClient(
-            (HOST, self.left.control_port), (HOST, self.right.control_port), timing, self._clock
+            (HOST, self.left.control_port),
+            (HOST, self.right.control_port),
+            timing,
+            self._clock,
+            trouble=lambda: self.problem,
         )
         self._opened.callback(self.operator.close)
         self.operator.start()

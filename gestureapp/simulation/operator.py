@@ -45,6 +45,7 @@ class OperatorClient:
         timing: Timing,
         clock: Clock = monotonic,
         seed: int | None = None,
+        trouble: Callable[[], str] = lambda: "",
     ) -> None:
         """Connect to nothing yet.
 
@@ -54,8 +55,10 @@ class OperatorClient:
             timing: Of the person whose arms these are.
             clock: Monotonic seconds, the emulators' own clock.
             seed: Chance in the coordination of the arms; None takes fresh chance.
+            trouble: What else is wrong with the emulated cell, in words; empty when nothing is.
         """
         self._clock = clock
+        self._trouble = trouble
         self._links = {
             Side.LEFT: ControlLink("left sensor emulator", *left_control),
             Side.RIGHT: ControlLink("right sensor emulator", *right_control),
@@ -120,6 +123,9 @@ class OperatorClient:
         with self._changed:
             parts = [self._plan.words(self._clock())]
             parts += [f"{side.value} sensor {kind}" for side, kind in self._faults.items()]
+            trouble = self._trouble()
+            if trouble:
+                return trouble
             return "; ".join([*parts, *self._troubles.values()])
 
     def wait_idle(self, limit_s: float) -> bool:

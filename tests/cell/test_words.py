@@ -31,9 +31,14 @@ SENTENCES = [
     (replace(BASE, state=S.READY, note="not armed: busy"), HOLD, "Not armed: busy"),
     (replace(BASE, state=S.READY, arming_since_s=1.0), HOLD, "Arming…"),
     (
-        replace(BASE, state=S.ARMED, note=""),
+        replace(BASE, state=S.ARMED, note="", is_left_rested=True),
         HOLD,
         "Raise the left arm and make a gesture with the right.",
+    ),
+    (
+        replace(BASE, state=S.ARMED, note="no movement of the right arm"),
+        HOLD,
+        "No movement of the right arm. Lower the left arm to the stop posture first.",
     ),
     (replace(BASE, state=S.ACTIVATED), HOLD, "Watching the right arm."),
     (replace(BASE, state=S.ACTIVATED, is_proposed=True), HOLD, "Recognised X+. Asking the robot."),

@@ -3,6 +3,7 @@ import json
 import numpy as np
 import pytest
 
+from gestureapp.errors import ModelMismatch
 from gestureapp.recognition.evaluation import evaluate
 from gestureapp.recognition.model_file import Model, TrainingRecord
 from gestureapp.recognition.network import Network
@@ -74,12 +75,15 @@ def test_a_take_that_ends_too_soon_is_not_recognised():
     assert result.decision_ms[0] > 250.0
 
 
-def test_no_takes_at_all_give_zeros():
-    result = evaluate(model_by_first_x(), takes_of())
+def test_no_takes_at_all_are_refused():
+    with pytest.raises(ModelMismatch, match="no takes at all"):
+        evaluate(model_by_first_x(), takes_of())
 
-    assert (result.n, result.recognised, result.wrong, result.rejected) == (0, 0.0, 0.0, 0.0)
-    assert result.per_gesture() == {}
-    assert "Gesture" in result.as_table()
+
+def test_takes_of_which_the_model_knows_no_label_are_refused_with_both_lists():
+    takes = takes_of(("forward", 0, [0.9, 0.9, 0.9]))
+    with pytest.raises(ModelMismatch, match=r"holds forward; this model knows X\+, X-"):
+        evaluate(model_by_first_x(), takes)
 
 
 def test_the_json_has_every_figure_and_survives_a_round_trip():

@@ -178,3 +178,19 @@ def test_the_next_gesture_comes_at_once_when_the_right_hand_has_had_time():
     hands.left_stop(19.0)
     (second,) = orders_to(Side.RIGHT, hands.gesture("Z-", 20.0))
     assert second["at_s"] < 20.5
+
+
+def test_gestures_that_are_replaced_before_they_begin_do_not_put_the_last_one_off():
+    hands = plan()
+    for n in range(8):
+        (last,) = orders_to(Side.RIGHT, hands.gesture(MOVING[n % 2], 10.0 + 0.1 * n))
+    assert last["at_s"] < 10.7 + 1.0
+
+
+def test_a_gesture_that_has_to_wait_is_announced_as_waiting():
+    hands = plan()
+    hands.gesture("Z+", 10.0)
+    hands.left_stop(11.0)
+    hands.gesture("Z-", 11.1)
+    assert hands.words(11.1).startswith("In 2 s")
+    assert hands.words(13.5) == "Left arm raised: start; right arm Z-, push down"

@@ -5,7 +5,14 @@ from dataclasses import replace
 
 import pytest
 from PySide6.QtCore import Qt
-from PySide6.QtWidgets import QApplication, QLabel, QProgressBar, QPushButton, QWidget
+from PySide6.QtWidgets import (
+    QAbstractButton,
+    QApplication,
+    QLabel,
+    QProgressBar,
+    QPushButton,
+    QWidget,
+)
 
 from gestureapp.cell.snapshot import CellState
 from gestureapp.gestures import GESTURES, LABELS
@@ -244,3 +251,31 @@ def test_the_scheme_can_change_while_the_window_is_open(window, cell, scenes):
         assert button(window, "armButton").palette().button().color().name() == colours.button
         corner = window.grab().toImage().pixelColor(2, window.height() - 2)
         assert corner.name() == colours.window
+
+
+def test_a_key_still_held_from_arming_presses_no_other_button(
+    qtbot, window, cell, operator, scenes
+):
+    arm = button(window, "armButton")
+    arm.setFocus()
+    qtbot.keyPress(arm, Qt.Key.Key_Space)
+    qtbot.waitUntil(lambda: cell.calls == ["arm"], timeout=5000)
+    show(window, cell, scenes.moving())
+    focused = QApplication.focusWidget()
+    assert not isinstance(focused, QAbstractButton)
+    qtbot.keyRelease(window if focused is None else focused, Qt.Key.Key_Space)
+    assert cell.calls == ["arm"]
+    assert operator.done == []
+
+
+def test_the_window_asks_for_no_more_than_the_screen_has(window):
+    available = window.screen().availableSize()
+    assert window.minimumWidth() <= available.width()
+    assert window.minimumHeight() <= available.height()
+
+
+def test_what_stands_against_arming_is_shown_only_before_a_move(window, cell, scenes):
+    show(window, cell, scenes.blocked())
+    assert window.findChild(QWidget, "blockerList").isVisible()
+    show(window, cell, scenes.moving())
+    assert not window.findChild(QWidget, "blockerList").isVisible()
