@@ -139,6 +139,8 @@ def _values(owner, name, value):
         return st.booleans()
     if isinstance(value, Enum):
         return st.sampled_from(type(value))
+    if name == "host":
+        return st.sampled_from(["", "localhost"]) | st.ip_addresses().map(str)
     if isinstance(value, str):
         return _TEXT
     if value is None:
