@@ -43,7 +43,7 @@ class SentLine:
     """A line whose last byte the operating system has taken.
 
     Attributes:
-        sent_s: Monotonic time right after the send returned.
+        sent_s: Monotonic time right before the send: nobody can have received it earlier.
         counter: Its running number.
         accel_g: What it says.
     """

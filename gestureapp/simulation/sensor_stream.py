@@ -76,11 +76,11 @@ class StreamPort:
         if self._client is None:
             return
         self._rest = self._rest[self._write(self._rest) :]
+        sent_s = self._clock()
         n = 0 if self._rest else self._write(line.data)
         if n == 0:
             self._n_dropped += 1
             return
-        sent_s = self._clock()
         self._rest = line.data[n:]
         self._n_sent += 1
         if not self._rest:
