@@ -14,6 +14,8 @@ AIM = "99 % within 10 ms"
 LABELS = ("X+", "X-")
 ARRIVES_S = 0.5
 """An IMOV that the controller hears within this after the guardian sent one is that one."""
+TRIES = 10
+"""A gesture may be misheard: so many are made for the first figure, however short the run."""
 MOVE_S = 0.15
 """How long each move goes on: long enough to be one, short enough for many of them."""
 
@@ -49,8 +51,9 @@ class _Script:
 
     def __call__(self, stage: Stage) -> None:
         stage.arm()
-        until_s = monotonic() + self._seconds
-        while monotonic() < until_s:
+        until_s, n_tried = monotonic() + self._seconds, 0
+        while monotonic() < until_s or (not self.n_moves and n_tried < TRIES):
+            n_tried += 1
             if stage.move(LABELS[self.n_moves % 2]):
                 self.n_moves += 1
                 stage.wait(lambda _: False, MOVE_S)

@@ -13,6 +13,8 @@ from gestureapp.window_port import OpenWindow
 
 LABELS = ("X+", "X-")
 MOVE_S = 0.2
+TRIES = 10
+"""A gesture may be misheard: so many are made for the first figure, however short the run."""
 TRIP_MS = 1000 * SiteSettings().trip_level_s
 
 
@@ -50,8 +52,9 @@ class _Script:
         self._stop = stop
 
     def __call__(self, stage: Stage) -> None:
-        until_s = monotonic() + self._seconds
-        while monotonic() < until_s:
+        until_s, n_tried = monotonic() + self._seconds, 0
+        while monotonic() < until_s or (not self.begun_s and n_tried < TRIES):
+            n_tried += 1
             if stage.move(LABELS[len(self.begun_s) % 2]):
                 stage.wait(lambda _: False, MOVE_S)
                 if stage.now.state is CellState.MOVING:
