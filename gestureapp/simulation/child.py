@@ -77,6 +77,10 @@ class EmulatorProcess:
             reason = self.problem or "is not ready in time; the machine may be too busy, try again"
             raise WorkerError(self.name, reason)
 
+    def wait_ended(self, limit_s: float) -> bool:
+        """Wait until the process has ended. Returns whether that was within the limit."""
+        return self._ended.wait(limit_s)
+
     @property
     def pid(self) -> int:
         """The process's id."""
