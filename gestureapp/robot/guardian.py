@@ -13,10 +13,10 @@ import selectors
 import signal
 import socket
 import sys
-import time
 from dataclasses import dataclass
 
 from gestureapp.robot import messages as m
+from gestureapp.robot.clock import monotonic
 from gestureapp.robot.outputs import DropRobot, ToApp, ToRobot
 from gestureapp.robot.supervisor import Supervisor
 from gestureapp.robot.values import StopReason
@@ -58,7 +58,7 @@ class Guardian:
         self._robot: socket.socket | None = None
         self._is_connecting = False
         self._connect_s = float("-inf")
-        self._born_s = time.monotonic()
+        self._born_s = monotonic()
         self._was_greeted = False
         self._was_told = False
         self._gone_s: float | None = None
@@ -68,7 +68,7 @@ class Guardian:
     def run(self) -> int:
         """Serve until the application is gone and the robot stands."""
         has_failed = False
-        while not self._is_over(time.monotonic()):
+        while not self._is_over(monotonic()):
             try:
                 self._turn()
             except Exception as error:  # the top of the process: it must not leave a robot running
@@ -81,7 +81,7 @@ class Guardian:
         return int(has_failed)
 
     def _turn(self) -> None:
-        now_s = time.monotonic()
+        now_s = monotonic()
         wait_s = max(0.0, self._supervisor.next_due_s(now_s) - now_s)
         ready = self._selector.select(wait_s)
         # The application first: a STOP must not wait for what the controller says.
@@ -92,8 +92,8 @@ class Guardian:
                 self._peer_ready(key.data, mask)
             elif key.fileobj is self._robot:  # else it was closed for what came before it
                 self._robot_ready(mask)
-        self._keep_robot(time.monotonic())
-        self._supervisor.tick(time.monotonic())
+        self._keep_robot(monotonic())
+        self._supervisor.tick(monotonic())
         self._flush()
 
     # The application's connections.
@@ -132,7 +132,7 @@ class Guardian:
 
     def _peer_said(self, peer: _Peer, line: bytes) -> None:
         message = m.decode(line)
-        now_s = time.monotonic()
+        now_s = monotonic()
         if peer.role is None:
             if isinstance(message, m.Hello) and message.token == self._start.token:
                 peer.role = message.role
@@ -166,7 +166,7 @@ class Guardian:
     def _application_gone(self, how: str) -> None:
         if self._gone_s is not None:
             return
-        now_s = time.monotonic()
+        now_s = monotonic()
         self._gone_s = now_s
         if self._is_leaving and not self._supervisor.may_move:
             return
@@ -222,7 +222,7 @@ class Guardian:
         sock = self._robot
         if sock is None:
             return
-        now_s = time.monotonic()
+        now_s = monotonic()
         if self._is_connecting:
             error = sock.getsockopt(socket.SOL_SOCKET, socket.SO_ERROR)
             if error:
@@ -246,13 +246,13 @@ class Guardian:
         if not data:
             self._robot_gone("the controller closed the connection")
             return
-        self._supervisor.robot_bytes(data, time.monotonic())
+        self._supervisor.robot_bytes(data, monotonic())
         self._flush()
 
     def _robot_gone(self, reason: str) -> None:
         self._close_robot()
         where = f"{self._start.host}:{self._start.port}"
-        self._supervisor.robot_ended(f"{where}: {reason}", time.monotonic())
+        self._supervisor.robot_ended(f"{where}: {reason}", monotonic())
         self._flush()
 
     def _close_robot(self) -> None:

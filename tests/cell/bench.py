@@ -103,13 +103,13 @@ class Bench:
 
     def until(self, is_so: Callable[[Snapshot], object], limit_s: float = 6.0) -> Snapshot:
         """Be the window until it is so; fails at the limit with what the window shows."""
-        deadline_s = time.monotonic() + limit_s
+        deadline_s = monotonic() + limit_s
         while True:
             self.cell.gui_tick()
             snapshot = self.now
             if is_so(snapshot):
                 return snapshot
-            assert time.monotonic() < deadline_s, (
+            assert monotonic() < deadline_s, (
                 f"still {snapshot.state.value}: {snapshot.sentence} {snapshot.blockers}"
             )
             time.sleep(TICK_S)

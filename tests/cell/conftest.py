@@ -13,6 +13,7 @@ from gestureapp.cell.engine import field_of
 from gestureapp.cell.inputs import GuardianPort, GuardianSaid, SampleCame, SensorTold
 from gestureapp.cell.records import Record, Topic
 from gestureapp.cell.snapshot import CellState
+from gestureapp.clock import monotonic
 from gestureapp.config import Settings
 from gestureapp.errors import GuardianLost
 from gestureapp.recognition.model_file import load_model
@@ -32,9 +33,9 @@ STANDSTILL_S = 0.15
 
 def wait_until(is_so: Callable[[], object], limit_s: float = 5.0, step_s: float = 0.01) -> bool:
     """Look again and again until it is so. Returns whether it was, within the limit."""
-    deadline_s = time.monotonic() + limit_s
+    deadline_s = monotonic() + limit_s
     while not is_so():
-        if time.monotonic() > deadline_s:
+        if monotonic() > deadline_s:
             return False
         time.sleep(step_s)
     return True

@@ -21,12 +21,13 @@ WRITE_FOREVER = """
     import sys, time
     from pathlib import Path
     from gestureapp.cell.records import Record, Topic
+    from gestureapp.clock import monotonic
     from gestureapp.recording.session_writer import SessionWriter
 
-    writer = SessionWriter(Path(sys.argv[1]), time.monotonic, time.time, {})
+    writer = SessionWriter(Path(sys.argv[1]), monotonic, time.time, {})
     writer.start()
     for line in sys.stdin:
-        now_s = time.monotonic()
+        now_s = monotonic()
         writer.put(Record(Topic.EVENT, now_s, {"text": line.strip(), "is_alarm": False}))
         print(now_s, writer.status, flush=True)
     writer.stop()

@@ -2,13 +2,13 @@
 
 import json
 import socket
-import time
 
 import pytest
 import yrcom
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
+from gestureapp.clock import monotonic
 from gestureapp.errors import RobotError
 from gestureapp.robot.values import Pose
 from gestureapp.simulation.nx100 import Nx100Emulator
@@ -173,11 +173,11 @@ def test_move_goes_on_when_the_connection_is_gone(emulator, link):
 def test_log_has_bytes_requests_and_motion_in_memory_and_in_its_file(tmp_path, link):
     file = tmp_path / "nx100.jsonl"
     with Nx100Emulator(Nx100Options(log_file=file)) as running:
-        before_s = time.monotonic()
+        before_s = monotonic()
         client = link(running)
         ask(client, "IMOV", move("2.000", "100.0"))
         assert running.log.wait_for(lambda e: e.what is What.MOTION_END, LIMIT_S)
-        after_s = time.monotonic()
+        after_s = monotonic()
         (request,) = running.log.requests("IMOV")
         assert before_s <= request.t_s <= after_s
         heard = b"".join(e.data for e in running.log.events(What.IN))
@@ -384,7 +384,7 @@ def test_control_port_shows_the_state_and_works_every_switch(pendant):
     assert pendant.does(do="mode", mode="teach") == {"ok": True}
     assert pendant.does(do="pose", x=700.0, rz=20) == {"ok": True}
     state = pendant.does(do="state")
-    assert state.pop("t_s") <= time.monotonic()
+    assert state.pop("t_s") <= monotonic()
     assert state == {
         "ok": True,
         "pose": [700.0, 0.0, 300.0, 180.0, 0.0, 20.0],

@@ -2,7 +2,6 @@
 
 import contextlib
 import socket
-import time
 from collections.abc import Iterator
 
 import pytest
@@ -62,7 +61,7 @@ class ArmReader:
         deadline_s = monotonic() + LIMIT_S
         while monotonic() < deadline_s:
             events = self._decoder.feed(self._socket.recv(4096))
-            now_s = time.monotonic()
+            now_s = monotonic()
             if any(shows(event.raw) for event in events if isinstance(event, Frame)):
                 return now_s
         raise AssertionError("not seen")

@@ -2,11 +2,11 @@
 
 import json
 import socket
-import time
 from collections.abc import Callable, Iterator
 
 import pytest
 
+from gestureapp.clock import monotonic
 from gestureapp.errors import ConfigError, SensorBusy, SensorError
 from gestureapp.sensing.decoder import Decoder
 from gestureapp.sensing.posture import PostureDetector
@@ -37,9 +37,9 @@ class Reader:
     def until(self, done: Callable[[list[DecoderEvent]], bool]) -> list[DecoderEvent]:
         """Read until the events since this call satisfy the condition."""
         events: list[DecoderEvent] = []
-        deadline_s = time.monotonic() + LIMIT_S
+        deadline_s = monotonic() + LIMIT_S
         while not done(events):
-            assert time.monotonic() < deadline_s, events[-5:]
+            assert monotonic() < deadline_s, events[-5:]
             data = self.socket.recv(4096)
             assert data, "the sensor closed the connection"
             self.raw += data
@@ -120,10 +120,10 @@ def test_a_push_forward_shows_as_positive_then_negative_acceleration(reader, con
 
 
 def test_the_log_tells_when_a_line_was_written(reader, control):
-    before_s = time.monotonic()
+    before_s = monotonic()
     frames = reader.frames(10)
     log = control.ask({"do": "log", "count": 1000})["log"]
-    after_s = time.monotonic()
+    after_s = monotonic()
     by_number = {line["n"]: line for line in log}
     for frame in frames[1:]:
         line = by_number[frame.counter]
@@ -219,9 +219,9 @@ def test_lines_for_a_client_that_does_not_read_are_dropped_whole():
 
 
 def wait_for_state(link: ControlLink, holds: Callable[[dict], bool]) -> None:
-    deadline_s = time.monotonic() + LIMIT_S
+    deadline_s = monotonic() + LIMIT_S
     while not holds(state := link.ask({"do": "state"})):
-        assert time.monotonic() < deadline_s, state
+        assert monotonic() < deadline_s, state
 
 
 def test_bad_commands_are_answered_and_the_stream_goes_on(right, reader):

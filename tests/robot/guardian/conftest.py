@@ -6,12 +6,12 @@ import selectors
 import socket
 import subprocess
 import threading
-import time
 from dataclasses import replace
 
 import pytest
 
 from gestureapp.children import child_command, child_environment
+from gestureapp.clock import monotonic
 from gestureapp.robot import messages as m
 from gestureapp.robot.values import Direction
 from gestureapp.simulation.nx100 import Nx100Emulator
@@ -99,7 +99,7 @@ class Application:
         self.arm()
         self.posture = "start"
         self.say(self._now())
-        self.say(m.Propose(1, FORWARD, time.monotonic()))
+        self.say(m.Propose(1, FORWARD, monotonic()))
         self.wait_for(m.CommandAccepted)
         assert emulator.log.wait_for(lambda e: e.what is What.MOTION_START)
 
@@ -115,7 +115,7 @@ class Application:
         self.window.close()
 
     def _now(self):
-        t_s = time.monotonic()
+        t_s = monotonic()
         return m.Beat(t_s, self.posture == "start", self.posture == "stop", t_s, t_s)
 
     def _beat(self, stopping):

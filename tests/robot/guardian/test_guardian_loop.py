@@ -2,8 +2,8 @@
 
 import socket
 import struct
-import time
 
+from gestureapp.clock import monotonic
 from gestureapp.robot import messages as m
 from gestureapp.robot.guardian import Guardian
 from gestureapp.robot.values import StopReason
@@ -12,9 +12,9 @@ RESET_ON_CLOSE = struct.pack("ii", 1, 0)
 
 
 def until(guardian, is_so, limit_s=5.0):
-    deadline_s = time.monotonic() + limit_s
+    deadline_s = monotonic() + limit_s
     while not is_so():
-        assert time.monotonic() < deadline_s
+        assert monotonic() < deadline_s
         guardian._turn()
 
 
@@ -26,7 +26,7 @@ def test_a_line_that_is_reset_in_the_round_of_a_stop_is_lost_and_nothing_more(li
         port = controller.getsockname()[1]
         guardian = Guardian(m.Start("t", "127.0.0.1", port, limits, ""), listener)
         with socket.create_connection(listener.getsockname()) as application:
-            now_s = time.monotonic()
+            now_s = monotonic()
             application.sendall(m.encode(m.Hello("t", m.Role.CONTROL)))
             application.sendall(m.encode(m.Beat(now_s, False, True, now_s, now_s)))
             until(guardian, lambda: guardian._robot is not None)
@@ -35,7 +35,7 @@ def test_a_line_that_is_reset_in_the_round_of_a_stop_is_lost_and_nothing_more(li
             until(guardian, lambda: guardian._supervisor.is_link_open)
             robot.setsockopt(socket.SOL_SOCKET, socket.SO_LINGER, RESET_ON_CLOSE)
             robot.close()
-            stop = m.Stop(StopReason.STOP_PRESSED, "STOP was pressed", time.monotonic())
+            stop = m.Stop(StopReason.STOP_PRESSED, "STOP was pressed", monotonic())
             application.sendall(m.encode(stop))
             until(guardian, lambda: guardian._supervisor.is_stopping)
             until(guardian, lambda: not guardian._supervisor.is_link_open)

@@ -5,11 +5,11 @@ import signal
 import socket
 import subprocess
 import sys
-import time
 
 import pytest
 
 from gestureapp.children import child_environment
+from gestureapp.clock import monotonic
 from gestureapp.robot import messages as m
 from gestureapp.robot.values import StopReason
 from gestureapp.simulation.nx100_log import What
@@ -43,7 +43,7 @@ def test_an_application_whose_connection_ends_leaves_no_robot_running(start, end
     emulator, guardian = started()
     app = application(guardian)
     app.move(emulator)
-    gone_s = time.monotonic()
+    gone_s = monotonic()
     for name in ("control", "window") if ending == "both" else (ending,):
         getattr(app, name).shutdown(socket.SHUT_RDWR)
 
@@ -55,7 +55,8 @@ def test_an_application_whose_connection_ends_leaves_no_robot_running(start, end
 
 
 STAND_IN = """
-import socket, sys, time
+import socket, sys
+from gestureapp.clock import monotonic
 from gestureapp.robot import messages as m
 from gestureapp.robot.values import Direction
 port, token = int(sys.argv[1]), sys.argv[2]
@@ -68,7 +69,7 @@ control, unread, has_armed, is_start = socks[0], b"", False, False
 control.settimeout(0.01)
 seen = set()
 while True:
-    t_s = time.monotonic()
+    t_s = monotonic()
     control.sendall(m.encode(m.Beat(t_s, is_start, not is_start, t_s, t_s)))
     try:
         unread += control.recv(65536)
@@ -80,7 +81,7 @@ while True:
         seen.add(type(message))
         if isinstance(message, m.Armed):
             is_start = True
-            t_s = time.monotonic()
+            t_s = monotonic()
             control.sendall(m.encode(m.Beat(t_s, True, False, t_s, t_s)))
             control.sendall(m.encode(m.Propose(1, Direction(0, 1, False), t_s)))
         elif isinstance(message, m.CommandAccepted):
@@ -103,7 +104,7 @@ def test_an_application_killed_while_moving_leaves_no_robot_running(start, hold_
     try:
         assert app.stdout.readline() == b"moving\n"
         assert emulator.log.wait_for(lambda e: e.what is What.MOTION_START)
-        gone_s = time.monotonic()
+        gone_s = monotonic()
         os.kill(app.pid, signal.SIGKILL)
         hold_after(emulator, gone_s, "kill -9 to HOLD")
         assert guardian.ended() == 0
@@ -125,7 +126,7 @@ def test_an_application_that_hangs_while_moving_is_stopped_by_the_watchdog(start
     )
     try:
         assert app.stdout.readline() == b"moving\n"
-        gone_s = time.monotonic()
+        gone_s = monotonic()
         os.kill(app.pid, signal.SIGSTOP)
         hold_after(emulator, gone_s, "hang to HOLD (trip level 300 ms)")
         assert guardian.child.poll() is None
@@ -147,7 +148,7 @@ def test_sigterm_stops_first_and_ends_then(start, is_moving, hold_after):
         app.move(emulator)
     else:
         app.wait_for(m.StatusReport)
-    gone_s = time.monotonic()
+    gone_s = monotonic()
     guardian.child.terminate()
 
     hold_after(emulator, gone_s, "SIGTERM to HOLD")
@@ -160,7 +161,7 @@ def test_stop_from_the_window_goes_past_the_control_connection(start, hold_after
     emulator, guardian = started()
     app = application(guardian)
     app.move(emulator)
-    pressed_s = time.monotonic()
+    pressed_s = monotonic()
     app.window.sendall(m.encode(m.Stop(StopReason.STOP_PRESSED, "STOP was pressed", pressed_s)))
 
     hold_after(emulator, pressed_s, "STOP to HOLD")
@@ -186,7 +187,7 @@ def test_a_robot_link_cut_while_moving_is_reopened_and_hold_comes_first(start, h
     emulator, guardian = started()
     app = application(guardian)
     app.move(emulator)
-    cut_s = time.monotonic()
+    cut_s = monotonic()
     emulator.fault(Fault(FaultKind.DROP))
     app.wait_for(m.StopConfirmed, lambda x: x.reason is StopReason.LINK_LOST)
 

@@ -3,11 +3,11 @@
 import contextlib
 import socket
 import subprocess
-import time
 
 import pytest
 
 from gestureapp.children import child_command, child_environment
+from gestureapp.clock import monotonic
 from gestureapp.robot import messages as m
 from gestureapp.robot.guardian import Guardian
 from gestureapp.robot.values import StopReason
@@ -34,7 +34,7 @@ def test_goodbye_while_moving_is_no_excuse(start, hold_after):
     emulator, guardian = started()
     app = application(guardian)
     app.move(emulator)
-    gone_s = time.monotonic()
+    gone_s = monotonic()
     app.say(m.Bye())
     app.window.shutdown(socket.SHUT_WR)
 
@@ -95,7 +95,7 @@ def test_a_line_that_never_ends_counts_as_an_application_gone(start, hold_after)
     emulator, guardian = started()
     app = application(guardian)
     app.move(emulator)
-    begun_s = time.monotonic()
+    begun_s = monotonic()
     with contextlib.suppress(OSError):
         app.window.sendall(b"x" * (3 << 20))
 
