@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import Any, Final
 
 from gestureapp.config import RobotSettings, SensorSettings, Settings, SiteSettings
+from gestureapp.robot.address import is_loopback
 
 UNITS: Final[Mapping[str, str]] = {
     "_mm_s": "mm/s",
@@ -144,6 +145,8 @@ def check_settings(settings: Settings, site: Settings | None = None) -> list[Set
     found += [
         SettingsFinding(low, why_not_below(values, low, high)) for low, high in bad_pairs(values)
     ]
+    if text := why_not_simulated(settings):
+        found.append(SettingsFinding("robot.host", text))
     if site is not None:
         limits = {name: value for name, _, value in named_values(site)}
         wider = {name: why_wider(name, values[name], limits[name]) for name in NARROWER}
@@ -182,6 +185,14 @@ def _why_no_address(host: object) -> str:
     except ValueError:
         is_address = False
     return "" if is_address else f"{shown(host)} is no address; give the controller's IP address"
+
+
+def why_not_simulated(settings: Settings) -> str:
+    """Why these cannot be a simulation's: its robot is on this machine. Empty when they can."""
+    host = settings.robot.host
+    if not settings.is_simulation or not host or is_loopback(host):
+        return ""
+    return f"{shown(host)} is not this machine, and a simulation opens nothing else; use 127.0.0.1"
 
 
 def bad_pairs(values: Mapping[str, Any]) -> list[tuple[str, str]]:

@@ -3,6 +3,8 @@
 import math
 from dataclasses import replace
 
+import pytest
+
 from gestureapp.config import RobotSettings, Settings
 from gestureapp.settings_check import NARROWER, PAIRS, RANGES, check_settings, named_values
 
@@ -40,3 +42,22 @@ def test_command_line_overrides_are_checked_by_the_same_table():
     faster = replace(Settings(), robot=replace(RobotSettings(), speed_mm_s=150.0))
     assert check_settings(faster) == []
     assert [one.setting for one in check_settings(faster, Settings())] == ["robot.speed_mm_s"]
+
+
+@pytest.mark.parametrize(
+    ("host", "is_simulation", "is_fine"),
+    [
+        ("127.0.0.1", True, True),
+        ("", True, True),
+        ("192.0.2.10", False, True),
+        ("192.0.2.10", True, False),
+        ("localhost", True, False),
+    ],
+)
+def test_a_simulation_opens_no_address_outside_this_machine(
+    host: str, is_simulation: bool, is_fine: bool
+):
+    settings = Settings(robot=RobotSettings(host=host), is_simulation=is_simulation)
+    found = [str(finding) for finding in check_settings(settings)]
+    words = f"robot.host: '{host}' is not this machine, and a simulation opens nothing else"
+    assert found == ([] if is_fine else [f"{words}; use 127.0.0.1"])

@@ -351,6 +351,7 @@ class Control:
                 model_problem=self._model_problem,
                 is_link_open=self._robot.is_open,
                 link_text=self._robot.text,
+                link_remedy=self._robot.remedy,
                 status=self._robot.status,
                 status_age_s=self._now_s - self._robot.status_s,
                 pose=self._robot.pose,

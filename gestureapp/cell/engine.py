@@ -24,6 +24,7 @@ from gestureapp.sensing.posture import PostureDetector
 from gestureapp.sensing.reader import SensorReader
 from gestureapp.sensing.store import SampleStore
 from gestureapp.sensing.values import Garbage, Sample, SensorEvent, Side
+from gestureapp.settings_check import why_not_simulated
 from gestureapp.worker import Worker
 
 log = logging.getLogger(__name__)
@@ -171,6 +172,7 @@ class Cell:
             host=robot.host,
             port=robot.port,
             limits=self._limits,
+            is_simulation=self.settings.is_simulation,
             log_file=self._guardian_log,
             on_message=lambda message: self._control.put(GuardianSaid(message)),
             on_lost=lambda text: self._control.put(e.GuardianGone(self._clock(), text)),
@@ -236,6 +238,8 @@ def limits_of(settings: Settings) -> Limits:
 
 def _checked_limits(settings: Settings) -> Limits:
     site = settings.site
+    if wrong := why_not_simulated(settings):
+        raise ConfigError("robot.host", settings.robot.host, wrong)
     try:
         PostureDetector(site.posture_enter_deg, site.posture_leave_deg, site.posture_debounce)
         return limits_of(settings)

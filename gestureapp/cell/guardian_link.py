@@ -36,6 +36,7 @@ class GuardianLink:
         host: The controller's address; empty when there is none.
         port: Its TCP port.
         limits: For the guardian's whole life.
+        is_simulation: The controller is an emulator on this machine.
         log_file: For the guardian's own log, or None.
         on_message: Gets what the guardian says, in the link's reader thread.
         on_lost: Told once, in the reader thread, when the guardian is gone unasked.
@@ -43,6 +44,7 @@ class GuardianLink:
 
     Raises:
         GuardianLost: it could not be started.
+        ValueError: a simulation was given an address outside this machine.
     """
 
     def __init__(
@@ -50,6 +52,7 @@ class GuardianLink:
         host: str,
         port: int,
         limits: Limits,
+        is_simulation: bool,
         log_file: Path | None,
         on_message: Callable[[m.FromGuardian], None],
         on_lost: Callable[[str], None],
@@ -60,9 +63,10 @@ class GuardianLink:
         self._clock = clock
         self._is_closing = False
         token = secrets.token_hex(16)
+        start = m.Start(token, host, port, limits, str(log_file or ""), is_simulation)
         self._process = _start_process()
         try:
-            self._tell_start(m.Start(token, host, port, limits, str(log_file or "")))
+            self._tell_start(start)
             address = ("127.0.0.1", self._read_port())
             self._control = self._connect(address, token, m.Role.CONTROL)
             self._window = self._connect(address, token, m.Role.WINDOW)

@@ -43,6 +43,7 @@ class Facts:
         pose_age_s: How old that is.
         field: Where the tool may go.
         lock: Why arming is locked out at all, or empty.
+        link_remedy: What to do about the line, where the guardian knows; else empty.
     """
 
     left: StreamHealth
@@ -58,6 +59,7 @@ class Facts:
     pose_age_s: float
     field: FieldOfOperation
     lock: str = ""
+    link_remedy: str = ""
 
 
 def find_blockers(facts: Facts) -> tuple[Blocker, ...]:
@@ -89,6 +91,9 @@ def _own_blockers(facts: Facts) -> Iterator[Blocker]:
 
 
 def _robot_blockers(facts: Facts) -> Iterator[Blocker]:
+    if not facts.is_link_open and facts.link_remedy:
+        yield Blocker("robot_link", facts.link_text, facts.link_remedy)
+        return
     if not facts.is_link_open:
         remedy = "check the address, the cable and the controller's Ethernet function"
         yield Blocker("robot_link", f"the robot does not answer: {facts.link_text}", remedy)

@@ -18,6 +18,7 @@ class RobotMemory:
     Attributes:
         is_open: The controller has taken the session.
         text: The line's own words.
+        remedy: What to do about it, where the guardian knows; else empty.
         status: Last RSTATS, or None.
         status_s: When it was read.
         pose: Last RPOSC, or None.
@@ -27,6 +28,7 @@ class RobotMemory:
     def __init__(self, address: str) -> None:
         self.is_open = False
         self.text = "not connected yet" if address else _NO_ADDRESS
+        self.remedy = ""
         self.status: RobotStatus | None = None
         self.status_s = float("-inf")
         self.pose: Pose | None = None
@@ -45,6 +47,7 @@ class RobotMemory:
             case m.LinkReport():
                 self.is_open = message.is_open
                 self.text = message.text if self._address else _NO_ADDRESS
+                self.remedy = message.remedy
                 if not message.is_open:
                     self.status, self._is_moving = None, False
             case m.StatusReport():

@@ -3,7 +3,8 @@
 The thinking is in ``supervisor``; here are only sockets and the clock. The application starts it,
 hands it one ``Start`` line on standard input, and connects twice: once from the control thread,
 once from the window. When either connection ends without a ``Bye``, the application counts as gone
-and the robot is stopped.
+and the robot is stopped. Before it opens the robot's address it takes the lock for it, and keeps it
+until its end: one application for each robot.
 """
 
 import contextlib
@@ -17,6 +18,7 @@ from dataclasses import dataclass
 
 from gestureapp.robot import messages as m
 from gestureapp.robot.clock import monotonic
+from gestureapp.robot.lock import AddressLock
 from gestureapp.robot.outputs import DropRobot, ToApp, ToRobot
 from gestureapp.robot.supervisor import Supervisor
 from gestureapp.robot.values import StopReason
@@ -57,6 +59,7 @@ class Guardian:
         self._peers: dict[socket.socket, _Peer] = {}
         self._robot: socket.socket | None = None
         self._is_connecting = False
+        self._lock = AddressLock(start.host, start.port, os.getppid())
         self._connect_s = float("-inf")
         self._born_s = monotonic()
         self._was_greeted = False
@@ -66,7 +69,19 @@ class Guardian:
         self.is_told_to_end = False
 
     def run(self) -> int:
-        """Serve until the application is gone and the robot stands."""
+        """Serve until the application is gone and the robot stands; then close everything."""
+        with contextlib.closing(self):
+            return self._serve()
+
+    def close(self) -> None:
+        """Close the robot's line, give its address back, close the rest. Idempotent."""
+        self._close_robot()
+        self._lock.give_back()
+        for peer in list(self._peers.values()):
+            self._close_peer(peer)
+        self._selector.close()
+
+    def _serve(self) -> int:
         has_failed = False
         while not self._is_over(monotonic()):
             try:
@@ -199,12 +214,20 @@ class Guardian:
         if self._robot is None:
             pause_s = 0.02 if self._supervisor.is_stopping else RETRY_S
             if now_s - self._connect_s >= pause_s:
-                self._connect(now_s)
+                self._connect_s = now_s
+                self._open_robot(now_s)
         elif self._is_connecting and now_s - self._connect_s > CONNECT_LIMIT_S:
             self._robot_gone(f"no connection within {CONNECT_LIMIT_S:.0f} s")
 
-    def _connect(self, now_s: float) -> None:
-        self._connect_s = now_s
+    def _open_robot(self, now_s: float) -> None:
+        in_use = self._lock.take()
+        if in_use is None:
+            self._connect()
+        else:
+            self._supervisor.robot_ended(in_use.text, now_s, in_use.remedy)
+            self._flush()
+
+    def _connect(self) -> None:
         try:
             address = (self._start.host, self._start.port)
             family = socket.AF_INET6 if ":" in self._start.host else socket.AF_INET

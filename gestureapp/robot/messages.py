@@ -12,6 +12,7 @@ from dataclasses import dataclass
 from enum import Enum
 from typing import Any
 
+from gestureapp.robot.address import is_loopback
 from gestureapp.robot.gate import Limits
 from gestureapp.robot.values import Direction, Pose, PoseIncrement, Refusal, StopReason
 
@@ -26,6 +27,10 @@ class Start:
         port: Its TCP port.
         limits: Of everything that may move.
         log: File for the guardian's own log; empty for none.
+        is_simulation: The controller is an emulator on this machine, and nothing else.
+
+    Raises:
+        ValueError: a simulation is given a robot's address outside this machine.
     """
 
     token: str
@@ -33,6 +38,11 @@ class Start:
     port: int
     limits: Limits
     log: str
+    is_simulation: bool = False
+
+    def __post_init__(self) -> None:
+        if self.is_simulation and self.host and not is_loopback(self.host):
+            raise ValueError(f"{self.host} is not this machine: no simulation opens it")
 
 
 @dataclass(frozen=True, slots=True)
@@ -116,10 +126,11 @@ class Bye:
 
 @dataclass(frozen=True, slots=True)
 class LinkReport:
-    """The line to the controller is open, or why not."""
+    """The line to the controller is open, or why not, and what to do where that is known."""
 
     is_open: bool
     text: str
+    remedy: str = ""
 
 
 @dataclass(frozen=True, slots=True)

@@ -9,11 +9,11 @@ class Outbox:
     """Collects outputs until the loop takes them. Owned by the supervisor.
 
     Attributes:
-        link_text: The last word on the line to the controller.
+        link: The last word on the line to the controller.
     """
 
     def __init__(self) -> None:
-        self.link_text = "not connected yet"
+        self.link = m.LinkReport(False, "not connected yet")
         self._outputs: list[Output] = []
         self._refused: dict[Request, str] = {}
 
@@ -36,10 +36,10 @@ class Outbox:
         """Words for the application; None is nothing to say."""
         self._outputs += [ToApp(message) for message in messages if message is not None]
 
-    def tell_link(self, is_open: bool, text: str) -> None:
-        """The line to the controller is open, or why not."""
-        self.link_text = text
-        self.tell(m.LinkReport(is_open, text))
+    def tell_link(self, is_open: bool, text: str, remedy: str = "") -> None:
+        """The line to the controller is open, or why not and what to do about it."""
+        self.link = m.LinkReport(is_open, text, remedy)
+        self.tell(self.link)
 
     def tell_refused(self, request: Request, text: str) -> None:
         """The controller refuses a request: said once, until it takes it again."""

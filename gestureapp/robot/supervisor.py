@@ -108,11 +108,11 @@ class Supervisor:
         self._handle(events, now_s)
         self.tick(now_s)
 
-    def robot_ended(self, reason: str, now_s: float) -> None:
-        """The socket was closed or could not be opened."""
+    def robot_ended(self, reason: str, now_s: float, remedy: str = "") -> None:
+        """The socket was closed or could not be opened; what to do, where that is known."""
         events = self._exchange.end(reason)
-        if not events and reason != self._out.link_text:
-            self._out.tell_link(False, reason)
+        if not events and reason != self._out.link.text:
+            self._out.tell_link(False, reason, remedy)
         if not events and self.is_armed:
             self.stop(StopReason.LINK_LOST, reason, now_s)
         self._handle(events, now_s)
@@ -121,7 +121,7 @@ class Supervisor:
 
     def greeted(self, now_s: float) -> None:
         """The application has just connected: tell it what is known."""
-        self._out.tell(m.LinkReport(self._exchange.is_open, self._out.link_text))
+        self._out.tell(self._out.link)
         self._report_status(now_s)
 
     def message(self, message: m.Message, now_s: float) -> None:

@@ -2,6 +2,7 @@
 
 import os
 import signal
+import sys
 import threading
 import time
 from collections.abc import Callable
@@ -12,7 +13,7 @@ import pytest
 
 from gestureapp.cell.engine import Cell
 from gestureapp.cell.records import Topic
-from gestureapp.cell.snapshot import CellState
+from gestureapp.cell.snapshot import Blocker, CellState
 from gestureapp.config import PersonSettings, RobotSettings, Settings, SiteSettings
 from gestureapp.errors import ConfigError
 from gestureapp.recording.session_reader import SessionFile, read_session
@@ -91,6 +92,30 @@ def test_shutting_down_while_moving_holds_the_robot_and_leaves_nothing(tmp_path:
         session = read_session(path)
         assert states(session)[-1] == "STOPPED"
         assert "disarmed by the operator" in texts(session)
+
+
+@pytest.mark.process
+@pytest.mark.skipif(sys.platform != "linux", reason="no lock that tells its holder")
+def test_a_second_cell_is_told_who_has_the_robot_and_gets_it_next(tmp_path: Path):
+    with Bench(tmp_path) as bench:
+        bench.until(lambda s: s.robot.is_connected)
+        other = cell_of(replace(Settings(), robot=bench.settings.robot))
+        other.start()
+        try:
+            bench.until(lambda _: blocker_of(other, "robot_link").remedy == "close that one")
+            where = f"127.0.0.1:{bench.nx100.port}"
+            assert blocker_of(other, "robot_link").text == (
+                f"the robot at {where} is in use by another gestureapp (process {os.getpid()})"
+            )
+            bench.cell.shutdown()
+            bench.until(lambda _: other.snapshot().robot.is_connected)
+        finally:
+            other.shutdown()
+
+
+def blocker_of(cell: Cell, name: str) -> Blocker:
+    found = {blocker.id: blocker for blocker in cell.snapshot().blockers}
+    return found.get(name, Blocker(name, "", ""))
 
 
 @pytest.mark.process
@@ -193,8 +218,9 @@ def test_a_cell_that_was_never_started_can_be_shut_down():
         replace(Settings(), robot=RobotSettings(ext_radius_mm=100.0, int_radius_mm=200.0)),
         replace(Settings(), site=SiteSettings(trip_level_s=3.0)),
         replace(Settings(), site=SiteSettings(posture_enter_deg=60.0)),
+        Settings(robot=RobotSettings(host="192.0.2.10"), is_simulation=True),
     ],
-    ids=["speed", "spheres", "trip level", "postures"],
+    ids=["speed", "spheres", "trip level", "postures", "a demo at a robot"],
 )
 def test_settings_that_nobody_may_have_are_refused_in_one_line(settings: Settings):
     with pytest.raises(ConfigError) as caught:

@@ -39,7 +39,4 @@ def test_a_line_that_is_reset_in_the_round_of_a_stop_is_lost_and_nothing_more(li
             application.sendall(m.encode(stop))
             until(guardian, lambda: guardian._supervisor.is_stopping)
             until(guardian, lambda: not guardian._supervisor.is_link_open)
-        for peer in list(guardian._peers.values()):
-            guardian._close_peer(peer)
-        guardian._close_robot()
-        guardian._selector.close()
+        guardian.close()
