@@ -110,7 +110,7 @@ class Control:
         self._recognition: Recognition | None = None
         self._lines: deque[EventLine] = deque(maxlen=KEPT_EVENTS)
         self._judged_s = float("-inf")
-        self._now_s = clock()
+        self._now_s = self._ticked_s = clock()
         self.n_overruns = 0
         self.state = MachineState(since_s=self._now_s)
         self.at_rest = threading.Event()
@@ -158,7 +158,9 @@ class Control:
 
     def tick(self, now_s: float) -> None:
         """Look at the clocks; say that we are alive; give the window a new picture."""
+        stalled_s, self._ticked_s = now_s - self._ticked_s, now_s
         self._now_s = now_s
+        self._check_own_time(stalled_s)
         self._check_guardian()
         self._keep_guardian()
         self._check_streams()
@@ -167,6 +169,14 @@ class Control:
         self._step(e.Ticked(now_s, self._blockers()))
         self._beat()
         self.picture = self._take_picture()
+
+    def _check_own_time(self, stalled_s: float) -> None:
+        """A process that was kept from running has heard no sensor: that is not the sensor's."""
+        limit_s = self._settings.site.trip_level_s
+        if stalled_s > limit_s:
+            words = StopReason.APPLICATION_STALLED.value
+            limit = f"limit {limit_s * 1000:.0f} ms"
+            self._step(e.Stalled(self._now_s, f"{words} for {stalled_s * 1000:.0f} ms, {limit}"))
 
     # Sensors.
 

@@ -151,10 +151,18 @@ class Faulted:
     text: str
 
 
+@dataclass(frozen=True, slots=True)
+class Stalled:
+    """The application did not run for longer than the left sensor may be silent."""
+
+    t_s: float
+    text: str
+
+
 Event = (
     Ticked | LeftPosture | StreamLost | ArmPressed | DisarmPressed | StopPressed | Decided
     | ArmTaken | ArmDenied | PermissionLost | MoveAccepted | MoveRefused | MoveEnded | StopTaken |
-    StopDone | StopOpen | GuardianGone | Faulted
+    StopDone | StopOpen | GuardianGone | Faulted | Stalled
 )  # fmt: skip
 
 

@@ -33,6 +33,7 @@ from gestureapp.cell.events import (
     SendDisarm,
     SendProposal,
     SendStop,
+    Stalled,
     StopDone,
     StopOpen,
     StopPressed,
@@ -144,7 +145,7 @@ def step(s: MachineState, event: Event, rules: Rules) -> Step:
             return _move(s, event)
         case StopTaken() | StopDone() | StopOpen():
             return _stop(s, event)
-        case GuardianGone() | Faulted():
+        case GuardianGone() | Faulted() | Stalled():
             return _failed(s, event)
 
 
@@ -311,7 +312,11 @@ def _stop(s: MachineState, event: StopTaken | StopDone | StopOpen) -> Step:
     return s, ()
 
 
-def _failed(s: MachineState, event: GuardianGone | Faulted) -> Step:
+def _failed(s: MachineState, event: GuardianGone | Faulted | Stalled) -> Step:
+    if isinstance(event, Stalled):
+        if s.state not in _PERMITTED:
+            return s, ()
+        return _ask_stop(s, event.t_s, StopReason.APPLICATION_STALLED, event.text)
     said = Say(event.text, is_alarm=True)
     if s.state in (*_PERMITTED, CellState.STOPPING) or isinstance(event, GuardianGone):
         s, effects = _ask_stop(s, event.t_s, StopReason.CELL_FAULT, event.text)

@@ -23,7 +23,14 @@ from gestureapp.robot.readings import Readings
 from gestureapp.robot.release import Release
 from gestureapp.robot.stopping import Standstill, StopPath
 from gestureapp.robot.values import Pose, Refusal, RobotStatus, StopReason
-from gestureapp.robot.watchdog import Cause, find_change, find_left_end, find_stale, next_look_s
+from gestureapp.robot.watchdog import (
+    Cause,
+    find_change,
+    find_left_end,
+    find_stale,
+    find_stall,
+    next_look_s,
+)
 
 DECIDING_S = 0.3
 """A decision follows the left arm's start within 160 ms; the line is kept free meanwhile."""
@@ -52,6 +59,7 @@ class Supervisor:
         self._start_seen_s = float("-inf")
         self._read = Readings()
         self._sent_s = 0.0
+        self._watched_s = float("inf")
 
     # What the loop asks.
 
@@ -212,12 +220,14 @@ class Supervisor:
             self._stop_for(find_left_end(beat, self.limits), now_s)
 
     def _watch(self, now_s: float) -> None:
+        stalled_s, self._watched_s = now_s - self._watched_s, now_s
         if self._stop.is_active and self._stop.reason is not StopReason.LEFT_ARM:
             return
         if not (self.is_armed or self.has_commanded):
             return
         if self._beat is not None:
-            self._stop_for(find_stale(self._beat, self.limits, now_s), now_s)
+            stall = find_stall(stalled_s, self.limits)
+            self._stop_for(stall or find_stale(self._beat, self.limits, now_s), now_s)
 
     def _stop_for(self, cause: Cause | None, now_s: float) -> None:
         if cause is not None:

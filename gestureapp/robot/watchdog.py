@@ -25,18 +25,38 @@ class Cause:
     text: str
 
 
+def find_stall(stalled_s: float, limits: Limits) -> Cause | None:
+    """Whether this process itself was kept from running: nobody watched the arm meanwhile."""
+    limit_s = limits.trip_level_s
+    if stalled_s <= limit_s:
+        return None
+    reason = StopReason.COMPUTER_STALLED
+    return Cause(reason, _too_long(reason, stalled_s, limit_s))
+
+
 def find_stale(beat: Beat, limits: Limits, now_s: float) -> Cause | None:
-    """The first thing that is too old, the left sensor before the rest."""
+    """The first thing that is too old, the left sensor before the rest.
+
+    A left sensor that is not heard because the application does not run is told as what it is.
+    """
+    trip_s, silent_s = limits.trip_level_s, now_s - beat.control_s
+    if now_s - beat.left_s > trip_s and trip_s / 2 < silent_s <= limits.control_limit_s:
+        reason = StopReason.APPLICATION_STALLED
+        text = f"{reason.value} for {silent_s * 1000:.0f} ms; the left sensor may be silent for"
+        return Cause(reason, f"{text} {trip_s * 1000:.0f} ms at most")
     for t_s, limit_s, reason in (
         (beat.left_s, limits.trip_level_s, StopReason.LEFT_SILENT),
-        (beat.control_s, limits.control_limit_s, StopReason.CONTROL_STALE),
+        (beat.control_s, limits.control_limit_s, StopReason.APPLICATION_STALLED),
         (beat.gui_s, limits.gui_limit_s, StopReason.WINDOW_STALE),
     ):
         age_s = now_s - t_s
         if not -AHEAD_S <= age_s <= limit_s:
-            text = f"{reason.value} for {age_s * 1000:.0f} ms, limit {limit_s * 1000:.0f} ms"
-            return Cause(reason, text)
+            return Cause(reason, _too_long(reason, age_s, limit_s))
     return None
+
+
+def _too_long(reason: StopReason, age_s: float, limit_s: float) -> str:
+    return f"{reason.value} for {age_s * 1000:.0f} ms, limit {limit_s * 1000:.0f} ms"
 
 
 def next_look_s(beat: Beat | None, limits: Limits, now_s: float, *, may_move: bool) -> float:

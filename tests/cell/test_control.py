@@ -134,6 +134,22 @@ def test_a_silent_sensor_stops_the_move_within_the_trip_level(desk, side):
     assert desk.run(1.0, S.STOPPED)
 
 
+def test_a_process_kept_from_running_while_the_robot_moves_is_told_as_such(desk):
+    desk.moving()
+    desk.now_s += 0.3
+    assert desk.run(0.05, S.STOPPING)
+    assert "application stood still for 31" in desk.control.state.note
+    assert "sensor" not in desk.control.state.note
+
+
+def test_a_process_kept_from_running_while_nothing_can_move_stops_nothing(desk):
+    desk.ready()
+    desk.now_s += 0.3
+    desk.run(0.5)
+    assert desk.state is not S.STOPPING
+    assert desk.run(2.0, S.READY)
+
+
 @pytest.mark.parametrize("side", list(Side))
 def test_a_frozen_sensor_stops_the_move_and_is_called_frozen(desk, side):
     desk.moving()

@@ -52,6 +52,7 @@ class Happening:
             "open": e.StopOpen(t_s, "text"),
             "gone": e.GuardianGone(t_s, "text"),
             "fault": e.Faulted(t_s, "text"),
+            "stall": e.Stalled(t_s, "text"),
         }
         return made[self.kind]
 
@@ -80,6 +81,7 @@ ANYTHING = st.builds(
             *("tick", "posture", "lost", "arm", "disarm", "stop", "decided", "taken", "denied"),
             *("unarmed", "accepted", "refused", "ended", "stopping", "stands", "open", "gone"),
             "fault",
+            "stall",
         )
     ),
     delay_s=st.sampled_from((0.0, 0.01, 0.2, 1.1, 3.5)),

@@ -71,6 +71,7 @@ EVENTS = {
     "stop open": e.StopOpen(NOW_S, "no standstill read back"),
     "guardian gone": e.GuardianGone(NOW_S, "the guardian has ended"),
     "faulted": e.Faulted(NOW_S, "left reader ended"),
+    "stalled": e.Stalled(NOW_S, "application stood still"),
 }
 
 
@@ -110,6 +111,7 @@ ACTIVATED_ROW = {
     "permission lost": COLLECTING_STOPPED,
     "guardian gone": Then(S.STOPPING, ("EndCollecting", "SendStop", "Say")),
     "faulted": Then(S.STOPPING, ("EndCollecting", "SendStop", "Say")),
+    "stalled": COLLECTING_STOPPED,
     "left arm's stop taken": Then(S.STOPPING, ("EndCollecting", "Say")),
     "latched stop taken": Then(S.STOPPING, ("EndCollecting", "Say")),
 }
@@ -118,6 +120,7 @@ ARMED_ROW = {
     "right lost": STOP,
     "disarm": Then(S.NOT_READY, ("SendDisarm", "Say")),
     "permission lost": Then(S.NOT_READY),
+    "stalled": STOP,
     "faulted": Then(S.STOPPING, ("SendStop", "Say")),
 }
 STOPPING_ROW = {
@@ -157,6 +160,7 @@ ROWS: dict[str, dict[str, Then]] = {
         "right lost": STOP,
         "disarm": STOP,
         "permission lost": STOP,
+        "stalled": STOP,
         "ended": Then(S.ARMED, ("Say",)),
         "faulted": Then(S.STOPPING, ("SendStop", "Say")),
     },

@@ -131,7 +131,7 @@ def test_an_ok_that_comes_after_silence_does_not_let_the_move_out(cell):
     cell.collect()
 
     assert cell.payloads() == []
-    assert cell.supervisor.latch is StopReason.LEFT_SILENT
+    assert cell.supervisor.latch is StopReason.COMPUTER_STALLED
 
 
 def test_hold_is_repeated_until_standstill_is_read_back(cell):

@@ -4,6 +4,10 @@ import pytest
 
 from gestureapp.robot import messages as m
 from gestureapp.robot.values import StopReason
+from tests.robot.conftest import TICK_S
+
+EXACT_S = 101.0
+"""Ages taken from here on are exact in binary."""
 
 
 def holds(cell, since_s=0.0):
@@ -17,19 +21,20 @@ def holds(cell, since_s=0.0):
     ("what", "limit_s", "reason"),
     [
         ("left_s", 0.125, StopReason.LEFT_SILENT),
-        ("control_s", 0.25, StopReason.CONTROL_STALE),
+        ("control_s", 0.25, StopReason.APPLICATION_STALLED),
         ("gui_s", 0.5, StopReason.WINDOW_STALE),
     ],
 )
 def test_every_watchdog_trips_just_over_its_limit_and_not_on_it(cell, what, limit_s, reason):
     cell.arm()
-    cell.beats = False
+    cell.run(EXACT_S - TICK_S - cell.now_s)
     cell.until(lambda: cell.supervisor._exchange.can_send)
-    cell.now_s = 128.0
-    cell.beat(**{what: 128.0 - limit_s})
+    cell.beats = False
+    cell.now_s = EXACT_S + 0.0625
+    cell.beat(**{what: cell.now_s - limit_s})
     assert cell.heard(m.StopAsked) == []
 
-    cell.beat(**{what: 128.0 - limit_s - 1e-6})
+    cell.beat(**{what: cell.now_s - limit_s - 1e-6})
     (stop,) = cell.heard(m.StopAsked)
     assert stop.reason is reason
     assert stop.text == f"{reason.value} for {limit_s * 1000:.0f} ms, limit {limit_s * 1000:.0f} ms"
@@ -41,7 +46,7 @@ def test_a_beat_from_the_future_is_as_bad_as_an_old_one(cell, what, ahead_s):
     cell.move()
     cell.beat(**{what: cell.now_s + ahead_s})
 
-    assert cell.heard(m.StopAsked)[0].reason.value.endswith(("silent", "frozen"))
+    assert cell.heard(m.StopAsked)[0].reason.value.endswith(("silent", "frozen", "still"))
     assert cell.supervisor.latch is not None
 
 
@@ -63,8 +68,44 @@ def test_silence_of_the_application_stops_an_armed_cell(cell, is_moving):
     assert 0.12 < silent_s < 0.14
 
     cell.until(lambda: cell.heard(m.StopConfirmed))
-    assert cell.supervisor.latch is StopReason.LEFT_SILENT
+    assert cell.supervisor.latch is StopReason.APPLICATION_STALLED
     assert cell.robot.is_held
+
+
+def test_a_left_sensor_that_falls_silent_alone_is_told_as_such(cell):
+    cell.move()
+    cell.beats = False
+    left_s = cell.now_s
+    while not cell.heard(m.StopAsked):
+        cell.beat(left_s=left_s)
+        cell.step()
+
+    assert cell.supervisor.latch is StopReason.LEFT_SILENT
+    assert 0.12 < cell.now_s - left_s < 0.14
+
+
+@pytest.mark.parametrize("asleep_s", [0.13, 0.5, 10.0])
+def test_a_computer_that_stood_still_while_the_robot_moved_is_a_stop_that_says_so(cell, asleep_s):
+    cell.move()
+    cell.now_s += asleep_s
+    cell.beat()  # fresh as it is, nobody watched the arm meanwhile
+    assert cell.supervisor.latch is StopReason.COMPUTER_STALLED
+    assert f"stood still for {asleep_s * 1000:.0f}" in cell.heard(m.StopAsked)[0].text
+
+    cell.until(lambda: cell.heard(m.StopConfirmed))
+    assert cell.robot.is_held
+    cell.posture = "stop"
+    cell.arm()
+    assert cell.supervisor.is_armed
+
+
+def test_a_computer_that_stood_still_while_nothing_could_move_is_no_stop(cell):
+    cell.run(1.0)
+    cell.now_s += 10.0
+    cell.beat()
+    cell.run(0.5)
+
+    assert cell.heard(m.StopAsked) == []
 
 
 def test_silence_while_disarmed_stops_nothing(cell):
@@ -84,9 +125,9 @@ def test_silence_during_the_left_arms_own_stop_latches_it(cell):
 
     assert [s.reason for s in cell.heard(m.StopAsked)] == [
         StopReason.LEFT_ARM,
-        StopReason.LEFT_SILENT,
+        StopReason.APPLICATION_STALLED,
     ]
-    assert cell.heard(m.StopConfirmed)[0].reason is StopReason.LEFT_SILENT
+    assert cell.heard(m.StopConfirmed)[0].reason is StopReason.APPLICATION_STALLED
     assert not cell.supervisor.is_armed
     cell.beats = True
     cell.run(1.0)
