@@ -8,6 +8,8 @@ from collections.abc import Iterator
 import pytest
 from hypothesis import settings
 
+from tests.pauses import PAUSE_S, MachinePaused, PauseMeter
+
 JOIN_LIMIT_S = 3.0
 
 if not os.environ.get("CI"):  # there hypothesis has its own profile, with the same examples always
@@ -37,3 +39,21 @@ def no_error_unannounced(
         return
     errors = [r.getMessage() for r in caplog.get_records("call") if r.levelno >= logging.ERROR]
     assert not errors, f"unannounced errors in the log: {errors}"
+
+
+@pytest.hookimpl(wrapper=True)
+def pytest_runtest_call(item: pytest.Item) -> Iterator[None]:
+    """A failure in real time during which the machine paused becomes ``MachinePaused``."""
+    if item.get_closest_marker("process") is None:
+        return (yield)
+    meter = PauseMeter()
+    meter.start()
+    try:
+        return (yield)
+    except Exception as error:
+        if meter.worst_s < PAUSE_S:
+            raise
+        text = f"the machine stood still for {meter.worst_s * 1000:.0f} ms: {error}"
+        raise MachinePaused(text) from error
+    finally:
+        meter.stop()

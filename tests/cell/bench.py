@@ -171,3 +171,9 @@ class Bench:
 
     def last(self, what: What) -> LogEvent:
         return self.nx100.log.events(what)[-1]
+
+    def motion_end(self) -> LogEvent:
+        """How the last motion ended, once the emulator has logged it."""
+        log = self.nx100.log
+        self.until(lambda _: len(log.events(What.MOTION_END)) == len(log.events(What.MOTION_START)))
+        return self.last(What.MOTION_END)

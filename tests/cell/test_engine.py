@@ -50,7 +50,7 @@ def test_a_gesture_moves_the_tool_and_the_left_arm_stops_it_and_the_next_needs_n
     bench.operator.left_stop()
     bench.reach(S.STOPPING)
     bench.reach(S.ARMED)
-    ended = bench.last(What.MOTION_END)
+    ended = bench.motion_end()
     assert ended.name == EndReason.HOLD.value
     assert bench.holds() == holds + 1
     assert (ended.pose.y_mm, ended.pose.z_mm) == (HOME.y_mm, HOME.z_mm)
@@ -73,7 +73,7 @@ def test_a_move_that_nobody_stops_ends_a_margin_short_of_the_field_and_leaves_th
     bench.operator.gesture("X+")
     bench.reach(S.MOVING)
     bench.reach(S.ARMED)
-    ended = bench.last(What.MOTION_END)
+    ended = bench.motion_end()
     assert ended.name == EndReason.DONE.value
     edge_mm = math.sqrt(1200.0**2 - HOME.z_mm**2)
     assert ended.pose.x_mm == pytest.approx(edge_mm - 20.0, abs=0.01)
@@ -88,7 +88,7 @@ def test_stop_latches_and_arming_again_works_ten_times(bench):
         snapshot = bench.reach(S.STOPPED)
         assert says(snapshot, "STOP was pressed. The robot stands.")
         assert stands_held(bench)
-        assert bench.last(What.MOTION_END).name == EndReason.HOLD.value
+        assert bench.motion_end().name == EndReason.HOLD.value
         assert bench.holds() > holds
         bench.operator.left_stop()
         bench.until(lambda s: s.can_arm)

@@ -57,7 +57,7 @@ def test_a_guardian_that_is_gone_while_moving_is_followed_by_one_that_holds_firs
         assert bench.guardian_pid != pid
         assert has_ended(pid)
         assert stands_held(bench)
-        assert bench.last(What.MOTION_END).name == EndReason.HOLD.value
+        assert bench.motion_end().name == EndReason.HOLD.value
         new = [r.name for r in bench.nx100.log.requests() if r.connection > connection]
         assert new[0] == "HOLD"
         bench.arm()
@@ -126,7 +126,7 @@ def test_a_control_thread_that_dies_has_the_robot_stopped_by_the_guardian(tmp_pa
         bench.move()
         is_broken.set()
         bench.until(lambda _: stands_held(bench))
-        assert bench.last(What.MOTION_END).name == EndReason.HOLD.value
+        assert bench.motion_end().name == EndReason.HOLD.value
         snapshot = bench.until(lambda s: "restart the application" in s.sentence)
         assert "control thread is silent" in snapshot.sentence
         assert not snapshot.can_arm
