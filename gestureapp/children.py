@@ -11,6 +11,13 @@ def child_command(*arguments: str) -> list[str]:
     return [sys.executable, "-m", "gestureapp", *arguments]
 
 
+def program_command(*arguments: str) -> list[str]:
+    """The command line that starts this very program again, window and all."""
+    if getattr(sys, "frozen", False):
+        return [sys.executable, *arguments]
+    return [sys.executable, sys.argv[0], *arguments]
+
+
 def child_environment() -> dict[str, str]:
     """The environment for children: one thread for numerics, and modules found as we found them.
 

@@ -41,6 +41,8 @@ def main(arguments: Sequence[str] | None = None, open_window: "OpenWindow | None
             return int(options.run(options))
         if hasattr(options, "what"):
             return _benchmark(options, open_window)
+        if hasattr(options, "subject_config"):
+            return _fault_subject(options, open_window)
         return _application(options, open_window)
     except GestureAppError as error:
         sys.stderr.write(f"gestureapp: {error}\n")
@@ -73,6 +75,8 @@ def _parser(has_window: bool) -> argparse.ArgumentParser:
     _add_simulate(commands)
     _add_training(commands)
     _add_benchmark(commands)
+    if has_window:
+        _add_fault_subject(commands)
     return parser
 
 
@@ -137,10 +141,22 @@ def _add_training(commands: "argparse._SubParsersAction[argparse.ArgumentParser]
 
 def _add_benchmark(commands: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
     benchmark = commands.add_parser("benchmark", help="measure the figures of the README")
-    benchmark.add_argument("what", choices=("latency", "stop", "training", "startup"))
+    benchmark.add_argument("what", choices=("latency", "stop", "training", "startup", "faults"))
     benchmark.add_argument("--seconds", type=_seconds, default=40.0, help="at least, per case")
+    benchmark.add_argument("--runs", type=_count, default=3, help="of each fault")
+    benchmark.add_argument(
+        "--fault", action="append", metavar="NAME", help="this one only; may be repeated"
+    )
     benchmark.add_argument("--json", action="store_true")
     benchmark.set_defaults(run=None)
+
+
+def _add_fault_subject(commands: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
+    """The application for ``benchmark faults``; no help: the harness starts it, no person."""
+    subject = commands.add_parser("fault-subject")
+    subject.add_argument("subject_config", type=Path)
+    subject.add_argument("folder", type=Path)
+    subject.set_defaults(run=None)
 
 
 def _application(options: argparse.Namespace, open_window: "OpenWindow | None") -> int:
@@ -240,9 +256,26 @@ def _evaluate(options: argparse.Namespace) -> int:
 def _benchmark(options: argparse.Namespace, open_window: "OpenWindow | None") -> int:
     from gestureapp.benchmark import measure
 
+    if options.what == "faults":
+        return _benchmark_faults(options, open_window)
     report = measure(options.what, options.seconds, open_window)
     _write(json.dumps(report.as_json()) if options.json else report.as_table())
     return FINE
+
+
+def _benchmark_faults(options: argparse.Namespace, open_window: "OpenWindow | None") -> int:
+    from gestureapp.benchmark import measure_faults
+
+    report = measure_faults(options.runs, options.fault or (), open_window)
+    _write(json.dumps(report.as_json()) if options.json else report.as_table())
+    return FINE if report.is_fine else FAILED
+
+
+def _fault_subject(options: argparse.Namespace, open_window: "OpenWindow | None") -> int:
+    assert open_window is not None
+    from gestureapp.benchmark.faults.subject import run_subject
+
+    return run_subject(options.subject_config, options.folder, open_window)
 
 
 def _check_place(out: Path) -> None:
@@ -260,6 +293,12 @@ def _check_place(out: Path) -> None:
 def _seed(text: str) -> int:
     if not (text.isascii() and text.isdigit() and int(text) < 1 << 32):
         raise argparse.ArgumentTypeError(f"{text} is not a whole number from 0 to 4294967295")
+    return int(text)
+
+
+def _count(text: str) -> int:
+    if not (text.isascii() and text.isdigit() and 0 < int(text) < 100_000):
+        raise argparse.ArgumentTypeError(f"{text} is not a whole number from 1 to 99999")
     return int(text)
 
 

@@ -12,6 +12,18 @@ class WindowHands(Protocol):
     def press_stop(self) -> float:
         """Press STOP with the mouse. Returns when the event was posted, monotonic seconds."""
 
+    def press_stop_key(self) -> float:
+        """Press Esc in the window that has the keyboard. Returns when the event was posted."""
+
+    def open_dialog(self, text: str) -> None:
+        """Open a modal dialog before the window, as a message that waits for an answer."""
+
+    def close_dialog(self) -> None:
+        """Close that dialog again; nothing when there is none."""
+
+    def call(self, work: Callable[[], None]) -> None:
+        """Have the window's own thread do something between two events."""
+
     def close(self) -> None:
         """Close the window."""
 

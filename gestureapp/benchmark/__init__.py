@@ -3,9 +3,17 @@
 Nothing here is a test: figures are printed, never judged.
 """
 
+import sys
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
 from gestureapp.benchmark.report import Report
+from gestureapp.children import program_command
 from gestureapp.errors import ConfigError
 from gestureapp.window_port import OpenWindow
+
+if TYPE_CHECKING:
+    from gestureapp.benchmark.faults.table import FaultReport
 
 
 def measure(what: str, seconds: float, open_window: OpenWindow | None) -> Report:
@@ -38,3 +46,26 @@ def measure(what: str, seconds: float, open_window: OpenWindow | None) -> Report
 
         return measure_startup()
     raise ConfigError("benchmark", what, "is no figure")
+
+
+def measure_faults(
+    runs: int, names: Sequence[str], open_window: OpenWindow | None
+) -> "FaultReport":
+    """Try faults on the application in a process of its own, and measure what comes of them.
+
+    Args:
+        runs: Of each fault.
+        names: Of the faults; all when empty.
+        open_window: Only tells that this program has a window.
+
+    Raises:
+        GestureAppError: there is no such fault, no window, another system than Linux, or the
+            emulators could not be started.
+    """
+    if open_window is None:
+        raise ConfigError("benchmark", "faults", "needs the window: run it as gestureapp")
+    if not sys.platform.startswith("linux"):
+        raise ConfigError("benchmark", "faults", "stops processes as only Linux lets it")
+    from gestureapp.benchmark.faults import run_faults
+
+    return run_faults(runs, names, program_command())

@@ -1,7 +1,6 @@
 """A demo cell with its window, driven by a script, and the truth that the emulators logged."""
 
 import contextlib
-import json
 import subprocess
 import threading
 import time
@@ -9,6 +8,7 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
+from gestureapp.benchmark.controller_log import ControllerLog
 from gestureapp.cell.snapshot import CellState, Snapshot
 from gestureapp.children import child_command, child_environment
 from gestureapp.clock import monotonic
@@ -22,16 +22,6 @@ from gestureapp.worker import Worker
 
 LOOK_S = 0.004
 """How often the script looks at the cell; figures come from the logs, not from these looks."""
-
-
-@dataclass(frozen=True, slots=True)
-class Requested:
-    """A request that the controller emulator has received. Times: first and last byte."""
-
-    name: str
-    data: str
-    first_s: float
-    last_s: float
 
 
 class Stage:
@@ -111,20 +101,11 @@ class Truth:
 
     Attributes:
         session: The recorded session.
-        requests: Everything the controller emulator received, in order.
-        ends_s: When its motions ended.
+        log: What the controller emulator received and did.
     """
 
     session: Path
-    requests: tuple[Requested, ...]
-    ends_s: tuple[float, ...]
-
-    def first(self, name: str, data: str, after_s: float) -> Requested | None:
-        """The first request of a kind whose first byte came after a time."""
-        for request in self.requests:
-            if request.name == name and request.data == data and request.first_s >= after_s:
-                return request
-        return None
+    log: ControllerLog
 
 
 def perform(script: Callable[[Stage], None], open_window: OpenWindow, folder: Path) -> Truth:
@@ -156,8 +137,9 @@ def perform(script: Callable[[Stage], None], open_window: OpenWindow, folder: Pa
         raise troubles[0]
     session = running.recorder.path
     assert session is not None
-    requests, ends_s = _read_log(log_file)
-    return Truth(session, requests, ends_s)
+    log = ControllerLog(log_file)
+    log.read()
+    return Truth(session, log)
 
 
 @contextlib.contextmanager
@@ -192,20 +174,3 @@ def _is_free(snapshot: Snapshot) -> bool:
     return snapshot.state is CellState.STOPPED or (
         snapshot.state is CellState.ARMED and not is_held
     )
-
-
-def _read_log(file: Path) -> tuple[tuple[Requested, ...], tuple[float, ...]]:
-    requests, ends_s = [], []
-    first_s: dict[int, float] = {}
-    for line in file.read_text("utf-8").splitlines():
-        event = json.loads(line)
-        match event["event"]:
-            case "bytes" if event["direction"] == "in" and "HOSTCTRL" in event["text"]:
-                first_s[event["connection"]] = event["t_s"]
-            case "request":
-                begun_s = first_s.get(event["connection"], event["t_s"])
-                name, data = event["request"], event["data"]
-                requests.append(Requested(name, data or "", begun_s, event["t_s"]))
-            case "motion_end":
-                ends_s.append(event["t_s"])
-    return tuple(requests), tuple(ends_s)

@@ -77,7 +77,7 @@ def _rows(words: str, script: _Script, truth: Truth) -> list[Row]:
             sent = (int(str(fields["activation_id"])), float(str(fields["t_s"])))
             commanded.append(sent)
     decided, first, last = [], [], []
-    moves = [request for request in truth.requests if request.name == "IMOV"]
+    moves = [request for request in truth.log.requests if request.name == "IMOV"]
     for activation_id, commanded_s in commanded:
         window_end_s, decided_s = ends[activation_id]
         sent_s = script.sent_s.get(counters.get(window_end_s, -1))

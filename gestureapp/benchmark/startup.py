@@ -2,12 +2,11 @@
 
 import re
 import subprocess
-import sys
 import tempfile
 from pathlib import Path
 
 from gestureapp.benchmark.report import Report, Row
-from gestureapp.children import child_environment
+from gestureapp.children import child_environment, program_command
 from gestureapp.clock import monotonic
 
 RUNS = 7
@@ -33,12 +32,11 @@ def measure_startup() -> Report:
 
 
 def _one() -> tuple[float | None, dict[str, float]]:
-    program = [sys.executable] if getattr(sys, "frozen", False) else [sys.executable, sys.argv[0]]
     with tempfile.TemporaryDirectory() as folder:
         arguments = ["--demo", "--data-dir", folder, "--log-level", "info"]
         begun_s = monotonic()
         with subprocess.Popen(
-            [*program, *arguments, "--exit-after", str(STAY_S + 1.0)],
+            program_command(*arguments, "--exit-after", str(STAY_S + 1.0)),
             env=child_environment(),
             stderr=subprocess.PIPE,
             text=True,

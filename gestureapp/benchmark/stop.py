@@ -68,8 +68,8 @@ class _Script:
 def _rows(words: str, script: _Script, truth: Truth, less_ms: float, aim: str) -> list[Row]:
     first, last, stands = [], [], []
     for begun_s in script.begun_s:
-        hold = truth.first("HOLD", "1", begun_s)
-        end_s = next((t for t in truth.ends_s if t >= begun_s), None)
+        hold = truth.log.first("HOLD", "1", begun_s)
+        end_s = truth.log.end_after(begun_s)
         if hold is None or end_s is None:
             continue
         first.append(1000 * (hold.first_s - begun_s) - less_ms)
