@@ -138,12 +138,12 @@ class Exchange:
         """Take back a request whose data has not gone out yet: the session ends with it.
 
         The controller awaits data now; ending the session is the only way not to send any.
-        Reads and stops are not taken back.
+        Reads, stops and the supervised input, which move nothing, are not taken back.
         """
         request = self.request
         if self.phase is not Phase.HEADER_SENT or request is None or request.data is None:
             return None
-        if request in HARMLESS or request.name == "RPOSC":
+        if request in HARMLESS or request.name in ("RPOSC", "IOWRITE"):
             return None
         return self._break(f"{request.name} was taken back before its data went out")
 

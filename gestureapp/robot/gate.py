@@ -42,6 +42,8 @@ class Limits:
         trip_level_s: Left sensor silent longer than this stops the robot.
         control_limit_s: The same for the control thread.
         gui_limit_s: The same for the window.
+        supervision_input: Network input that is toggled for the controller's ladder; 0 for none.
+        supervision_hz: How often a second.
 
     Raises:
         ValueError: a limit is outside its bounds; the text names limit, value and bounds.
@@ -56,6 +58,8 @@ class Limits:
     trip_level_s: float
     control_limit_s: float
     gui_limit_s: float
+    supervision_input: int = 0
+    supervision_hz: float = 5.0
 
     def __post_init__(self) -> None:
         for name, low, high in (
@@ -66,10 +70,15 @@ class Limits:
             ("trip_level_s", 0.05, 0.3),
             ("control_limit_s", 0.05, 0.5),
             ("gui_limit_s", 0.1, 1.0),
+            ("supervision_hz", 2.0, 10.0),
         ):
             value = getattr(self, name)
             if not (math.isfinite(value) and low <= value <= high):
                 raise ValueError(f"{name} = {value}: must lie between {low} and {high}")
+        if self.supervision_input and self.supervision_input not in nx100.NETWORK_INPUTS:
+            first, last = nx100.NETWORK_INPUTS[0], nx100.NETWORK_INPUTS[-1]
+            inputs = f"0, or a multiple of 10 from {first} to {last}"
+            raise ValueError(f"supervision_input = {self.supervision_input}: must be {inputs}")
 
 
 @dataclass(frozen=True, slots=True)
@@ -104,6 +113,7 @@ class GateView:
         is_left_start: The left arm holds the start posture.
         is_left_stop: The left arm holds the stop posture.
         is_link_open: The controller has taken the session.
+        hindrances: What stands against arming and no status shows.
     """
 
     is_armed: bool
@@ -120,6 +130,7 @@ class GateView:
     is_left_start: bool
     is_left_stop: bool
     is_link_open: bool
+    hindrances: tuple[Refusal, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -154,19 +165,32 @@ class Command:
 _ALWAYS = frozenset({nx100.READ_STATUS, nx100.READ_ALARMS, nx100.HOLD_ON, nx100.SERVO_OFF})
 
 
-def permit(request: Request, view: GateView) -> Permit | Refusal:
-    """Let through what is not a move: reads and stops always, the rest only at standstill."""
+def permit(request: Request, view: GateView, limits: Limits) -> Permit | Refusal:
+    """Let through what is not a move: reads and stops always, the rest only at standstill.
+
+    Of the network inputs only the site's own may be written, and only with 0 or 1.
+    """
     if request in _ALWAYS or request.name == "RPOSC":
         return Permit(request)
-    if request == nx100.SERVO_ON:
-        if view.is_armed or view.is_moving or view.is_stopping:
-            return Refusal("armed", "servo power is switched on only while disarmed and standing")
+    supervised = limits.supervision_input
+    if supervised and request in (nx100.write_input(supervised, value) for value in (0, 1)):
         return Permit(request)
+    if request == nx100.SERVO_ON:
+        return servo_blocker(view) or Permit(request)
     if request == nx100.HOLD_OFF:
         if view.is_stopping or view.is_moving:
             return Refusal("stopping", "a hold is released only after standstill was read back")
         return Permit(request)
     return Refusal("not_listed", f"{request.name} is not on the list of what may be sent")
+
+
+def servo_blocker(view: GateView) -> Refusal | None:
+    """What stands against switching servo power at the operator's wish."""
+    if not view.is_link_open:
+        return Refusal("no_link", "the robot does not answer")
+    if view.is_armed or view.is_moving or view.is_stopping:
+        return Refusal("armed", "servo power is switched only while disarmed and standing")
+    return None
 
 
 def decide(proposal: Proposal, view: GateView, limits: Limits, now_s: float) -> Command | Refusal:
@@ -213,6 +237,7 @@ def arm_blocker(
             asked, limit = f"{age_s:.2f} s", f"{STATUS_MAX_AGE_S:.2f} s"
             return Refusal("status_age", f"{text} is {asked} old, limit {limit}", asked, limit)
     refusal = robot_blocker(view.status, ignore_own_hold=ignore_own_hold)
+    refusal = refusal or next(iter(view.hindrances), None)
     return refusal or _left_silent(view, limits, now_s) or _left_not_stop(view)
 
 

@@ -120,6 +120,11 @@ class ServoOn:
 
 
 @dataclass(frozen=True, slots=True)
+class ServoOff:
+    """The operator asks for servo power to be switched off, at standstill."""
+
+
+@dataclass(frozen=True, slots=True)
 class Bye:
     """The application ends in order: disarmed and standing, no stop is needed."""
 
@@ -237,17 +242,24 @@ class HoldReleased:
 
 
 @dataclass(frozen=True, slots=True)
+class Hindrances:
+    """All that stands against arming and no status shows; told when it changes."""
+
+    refusals: tuple[Refusal, ...]
+
+
+@dataclass(frozen=True, slots=True)
 class Notice:
     """One line for the cell's story."""
 
     text: str
 
 
-ToGuardian = Hello | Beat | Arm | Disarm | Propose | Stop | ServoOn | Bye
+ToGuardian = Hello | Beat | Arm | Disarm | Propose | Stop | ServoOn | ServoOff | Bye
 FromGuardian = (
     LinkReport | StatusReport | PoseReport | Armed | ArmRefused | Disarmed | CommandSent
     | CommandAccepted | CommandRefused | MotionEnded | StopAsked | StopConfirmed | StopUnconfirmed
-    | HoldReleased | Notice
+    | HoldReleased | Hindrances | Notice
 )  # fmt: skip
 Message = Start | Listening | ToGuardian | FromGuardian
 

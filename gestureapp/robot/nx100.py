@@ -82,6 +82,21 @@ def move_increment(increment: PoseIncrement, speed: float, frame: int, tool: int
     return Request("IMOV", data)
 
 
+NETWORK_INPUTS = range(22010, 23288, 10)
+"""The first input of each byte that IOWRITE may write; the next byte is 10 higher. Source: an NX100
+client's notes, and the data transmission manual's example."""
+
+
+def write_input(first: int, value: int) -> Request:
+    """IOWRITE of one byte of network inputs: start, count of contacts, value.
+
+    Args:
+        first: Out of ``NETWORK_INPUTS``; bit 0 of the byte.
+        value: 0 to 255.
+    """
+    return Request("IOWRITE", f"{first},8,{value}")
+
+
 def wire_speed(speed: float) -> float:
     """The speed as it can be said: one decimal, never above what was let through."""
     return math.floor(speed * 10) / 10

@@ -3,6 +3,7 @@
 from gestureapp.robot import messages as m
 from gestureapp.robot.nx100 import Request
 from gestureapp.robot.outputs import DropRobot, Output, ToApp, ToRobot
+from gestureapp.robot.values import Refusal
 
 
 class Outbox:
@@ -10,10 +11,12 @@ class Outbox:
 
     Attributes:
         link: The last word on the line to the controller.
+        hindrances: What stands against arming, as last told.
     """
 
     def __init__(self) -> None:
         self.link = m.LinkReport(False, "not connected yet")
+        self.hindrances: tuple[Refusal, ...] = ()
         self._outputs: list[Output] = []
         self._refused: dict[Request, str] = {}
 
@@ -40,6 +43,13 @@ class Outbox:
         """The line to the controller is open, or why not and what to do about it."""
         self.link = m.LinkReport(is_open, text, remedy)
         self.tell(self.link)
+
+    def tell_hindrances(self, *found: Refusal | None) -> None:
+        """What stands against arming; told when it changes. None is nothing."""
+        refusals = tuple(refusal for refusal in found if refusal is not None)
+        if refusals != self.hindrances:
+            self.hindrances = refusals
+            self.tell(m.Hindrances(refusals))
 
     def tell_refused(self, request: Request, text: str) -> None:
         """The controller refuses a request: said once, until it takes it again."""

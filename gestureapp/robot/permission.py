@@ -1,6 +1,8 @@
-"""The operator's permission, how it is being given, and the latch of a stop. Pure."""
+"""The operator's permission, how it is being given, the latch of a stop, and servo power. Pure."""
 
 from gestureapp.robot import messages as m
+from gestureapp.robot import nx100
+from gestureapp.robot.nx100 import Request
 from gestureapp.robot.values import Refusal, StopReason
 
 ARMING_LIMIT_S = 2.0
@@ -54,3 +56,31 @@ class Permission:
         """Take it back, if it was given."""
         was_armed, self.is_armed = self.is_armed, False
         return m.Disarmed() if was_armed else None
+
+
+class ServoWish:
+    """Now or not at all: servo power never changes later, when nobody expects it.
+
+    Attributes:
+        request: SVON 1 or 0, waiting for the line; or None.
+    """
+
+    def __init__(self) -> None:
+        self.request: Request | None = None
+
+    def ask(self, request: Request, refusal: Refusal | None) -> m.Notice | None:
+        """The operator asks; what stands against it is told."""
+        self.request = request if refusal is None else None
+        if refusal is None:
+            return None
+        word = "on" if request == nx100.SERVO_ON else "off"
+        return m.Notice(f"servo power was not switched {word}: {refusal.text}")
+
+    def cancel(self) -> None:
+        """A stop goes before, or the line is lost."""
+        self.request = None
+
+    def take(self) -> Request | None:
+        """What waits; it does not wait any more."""
+        request, self.request = self.request, None
+        return request

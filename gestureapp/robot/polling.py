@@ -50,12 +50,16 @@ class Polling:
         """The state tells of an alarm: ask which."""
         self._wants_alarms = True
 
+    def want_status(self) -> None:
+        """The position changes unasked: read the state at once."""
+        self._status_s = float("-inf")
+
     def next_request(self, now_s: float, pace: Pace) -> Request | None:
         """The read that is due, the state before the position, or None."""
         if self._wants_alarms:
             self._wants_alarms = False
             return nx100.READ_ALARMS
-        if now_s - self._status_s >= pace.status_s:
+        if now_s - self._status_s >= pace.status_s:  # inf >= inf: one that is wanted goes always
             self._status_s = now_s
             return nx100.READ_STATUS
         if now_s - self._pose_s >= pace.pose_s:

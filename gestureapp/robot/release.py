@@ -44,6 +44,10 @@ class Release:
         """Released a moment ago: a robot that runs now does so without a command."""
         return now_s - self._released_s < WATCH_S
 
+    def may_resume(self, now_s: float) -> bool:
+        """A robot that runs now goes on with what the hold has interrupted."""
+        return self.is_active or self.is_watching(now_s)
+
     def may_begin(self, now_s: float) -> bool:
         """None is under way, and none has failed a moment ago."""
         return not self.is_active and now_s - self._failed_s >= RETRY_S

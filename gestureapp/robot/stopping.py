@@ -99,14 +99,16 @@ class StopPath:
 
     def next_request(self, now_s: float, frame: int) -> Request:
         """What to send next while the stop is under way."""
-        seen = self._seen
-        hold_is_due = now_s - seen.hold_sent_s >= REPEAT_S and seen.n_reads >= READS
-        if hold_is_due:
-            return nx100.HOLD_ON
-        if now_s - seen.servo_off_sent_s >= REPEAT_S and self._must_escalate(now_s):
-            return nx100.SERVO_OFF
-        seen.read_pose_next = not seen.read_pose_next
-        return nx100.read_pose(frame) if seen.read_pose_next else nx100.READ_STATUS
+        if (urgent := self._urgent_request(now_s)) is not None:
+            return urgent
+        self._seen.read_pose_next = not self._seen.read_pose_next
+        return nx100.read_pose(frame) if self._seen.read_pose_next else nx100.READ_STATUS
+
+    def may_wait(self, now_s: float) -> bool:
+        """Something small may go before: no stop is under way, or one that only reads by now."""
+        if not self.is_active:
+            return True
+        return self._urgent_request(now_s) is None and not self._seen.told
 
     def sent(self, request: Request, now_s: float) -> None:
         """A request has gone out."""
@@ -116,7 +118,7 @@ class StopPath:
             self._seen.hold_sent_s, self._seen.n_reads = now_s, 0
         elif request == nx100.SERVO_OFF:
             self._seen.servo_off_sent_s, self._seen.n_reads = now_s, 0
-        else:
+        elif request.name in ("RSTATS", "RPOSC"):
             self._seen.n_reads += 1
 
     def answered(self, request: Request, answer: Answer, now_s: float) -> None:
@@ -154,6 +156,14 @@ class StopPath:
             why = f" ({self._seen.refusal})" if self._seen.refusal else ""
             text = f"no standstill read back for {now_s - self.asked_s:.1f} s{why}"
             return Unconfirmed(self.reason, text)
+        return None
+
+    def _urgent_request(self, now_s: float) -> Request | None:
+        seen = self._seen
+        if now_s - seen.hold_sent_s >= REPEAT_S and seen.n_reads >= READS:
+            return nx100.HOLD_ON
+        if now_s - seen.servo_off_sent_s >= REPEAT_S and self._must_escalate(now_s):
+            return nx100.SERVO_OFF
         return None
 
     def _must_escalate(self, now_s: float) -> bool:

@@ -4,36 +4,30 @@ Bytes, messages and the time come in; bytes and messages go out. Nothing here wa
 here can be switched off by the application: limits come once, at the start.
 
 Order of what goes on the wire: the stop path first, then releasing a hold, then a command, then
-servo power, then polling. At most one request is in flight, so a stop waits for one answer at the
+servo power, then the supervised input, then polling; see ``heartbeat`` for when that input is so
+late that it goes before. At most one request is in flight, so a stop waits for one answer at the
 most.
 """
 
 from gestureapp.robot import messages as m
 from gestureapp.robot import nx100
+from gestureapp.robot.beats import Beats
 from gestureapp.robot.commands import Commands
 from gestureapp.robot.exchange import Answered, Exchange, ExchangeEvent, LinkBroken, Opened
-from gestureapp.robot.gate import GateView, Limits, Permit, arm_blocker, permit
+from gestureapp.robot.gate import GateView, Limits, Permit, arm_blocker, permit, servo_blocker
+from gestureapp.robot.heartbeat import Heartbeat
+from gestureapp.robot.leftover import Leftover
 from gestureapp.robot.motion import StoppedShort
 from gestureapp.robot.nx100 import Alarms, Failure, Request
 from gestureapp.robot.outbox import Outbox
 from gestureapp.robot.outputs import Output
-from gestureapp.robot.permission import Permission
+from gestureapp.robot.permission import Permission, ServoWish
 from gestureapp.robot.polling import Pace, Polling
 from gestureapp.robot.readings import Readings
 from gestureapp.robot.release import Release
 from gestureapp.robot.stopping import Standstill, StopPath
 from gestureapp.robot.values import Pose, Refusal, RobotStatus, StopReason
-from gestureapp.robot.watchdog import (
-    Cause,
-    find_change,
-    find_left_end,
-    find_stale,
-    find_stall,
-    next_look_s,
-)
-
-DECIDING_S = 0.3
-"""A decision follows the left arm's start within 160 ms; the line is kept free meanwhile."""
+from gestureapp.robot.watchdog import Cause, find_change
 
 
 class Supervisor:
@@ -54,12 +48,12 @@ class Supervisor:
         self._commands = Commands()
         self._release = Release()
         self._polling = Polling(limits.frame)
-        self._servo_wanted = False
-        self._beat: m.Beat | None = None
-        self._start_seen_s = float("-inf")
+        self._heartbeat = Heartbeat(limits.supervision_input, limits.supervision_hz)
+        self._leftover = Leftover()
+        self._servo = ServoWish()
+        self._beats = Beats(limits)
         self._read = Readings()
         self._sent_s = 0.0
-        self._watched_s = float("inf")
 
     # What the loop asks.
 
@@ -99,7 +93,7 @@ class Supervisor:
 
     def next_due_s(self, now_s: float) -> float:
         """When ``tick`` has something to do at the latest."""
-        look_s = next_look_s(self._beat, self.limits, now_s, may_move=self.may_move)
+        look_s = self._beats.next_look_s(now_s, may_move=self.may_move)
         return min(look_s, self._exchange.deadline_s)
 
     # Inputs from the robot's side.
@@ -129,8 +123,8 @@ class Supervisor:
 
     def greeted(self, now_s: float) -> None:
         """The application has just connected: tell it what is known."""
-        self._out.tell(self._out.link)
-        self._report_status(now_s)
+        self._out.tell(self._out.link, m.Hindrances(self._out.hindrances))
+        self._out.tell(self._read.report(now_s))
 
     def message(self, message: m.Message, now_s: float) -> None:
         """A message from the application."""
@@ -147,13 +141,15 @@ class Supervisor:
             case m.Disarm():
                 self._disarm(now_s)
             case m.ServoOn():
-                self._ask_servo()
+                self._out.tell(self._servo.ask(nx100.SERVO_ON, servo_blocker(self._view())))
+            case m.ServoOff():
+                self._out.tell(self._servo.ask(nx100.SERVO_OFF, servo_blocker(self._view())))
         self.tick(now_s)
 
     def stop(self, reason: StopReason, text: str, now_s: float) -> None:
         """The one place through which every stop goes, whoever asks."""
         self._commands.take_pending()
-        self._servo_wanted = False
+        self._servo.cancel()
         self._release.cancel()
         if reason.is_latched:
             self._permission.latch = self.latch or reason
@@ -163,7 +159,7 @@ class Supervisor:
         if reason.is_latched:  # told after the reason, or the cell would take it for one
             self._out.tell(self._permission.lose())
         if (withdrawn := self._exchange.withdraw()) is not None:
-            self._forget_robot(withdrawn.reason)
+            self._forget_robot(withdrawn, now_s)
 
     def tick(self, now_s: float) -> None:
         """Look at every clock, then use the line if it is free."""
@@ -173,6 +169,7 @@ class Supervisor:
         self._check_motion(now_s)
         self._check_release(now_s)
         self._check_arming(now_s)
+        self._out.tell_hindrances(self._leftover.refusal, self._heartbeat.find_trouble(now_s))
         if self._exchange.can_send:
             self._send_next(now_s)
 
@@ -201,33 +198,19 @@ class Supervisor:
         self._release.cancel()
         self._out.tell(self._permission.give_up(text), self._permission.lose())
 
-    def _ask_servo(self) -> None:
-        """Now or not at all: servo power never comes on later, when nobody expects it."""
-        allowed = permit(nx100.SERVO_ON, self._view())
-        if not self._exchange.is_open:
-            allowed = Refusal("no_link", "the robot does not answer")
-        self._servo_wanted = isinstance(allowed, Permit)
-        if isinstance(allowed, Refusal):
-            self._out.tell(m.Notice(f"servo power was not switched on: {allowed.text}"))
-
     # The heartbeat and the watchdogs.
 
     def _take_beat(self, beat: m.Beat, now_s: float) -> None:
-        if beat.is_left_start and not (self._beat and self._beat.is_left_start):
-            self._start_seen_s = now_s
-        self._beat = beat
+        self._beats.take(beat, now_s)
         if self.has_commanded and not self._stop.is_active:
-            self._stop_for(find_left_end(beat, self.limits), now_s)
+            self._stop_for(self._beats.find_left_end(), now_s)
 
     def _watch(self, now_s: float) -> None:
-        stalled_s, self._watched_s = now_s - self._watched_s, now_s
+        self._beats.watched(now_s)
         if self._stop.is_active and self._stop.reason is not StopReason.LEFT_ARM:
             return
-        if not (self.is_armed or self.has_commanded):
-            return
-        if self._beat is not None:
-            stall = find_stall(stalled_s, self.limits)
-            self._stop_for(stall or find_stale(self._beat, self.limits, now_s), now_s)
+        if self.is_armed or self.has_commanded:
+            self._stop_for(self._beats.find_stale(now_s), now_s)
 
     def _stop_for(self, cause: Cause | None, now_s: float) -> None:
         if cause is not None:
@@ -247,14 +230,17 @@ class Supervisor:
             status_s=self._read.status_s,
             pose=self._read.pose,
             pose_s=self._read.pose_s,
-            left_s=self._beat.left_s if self._beat else float("-inf"),
-            is_left_start=self._beat is not None and self._beat.is_left_start,
-            is_left_stop=self._beat is not None and self._beat.is_left_stop,
+            left_s=self._beats.left_s,
+            is_left_start=self._beats.is_left_start,
+            is_left_stop=self._beats.is_left_stop,
             is_link_open=self._exchange.is_open,
+            hindrances=self._out.hindrances,
         )
 
     def _send_next(self, now_s: float) -> None:
-        if self._stop.is_active:
+        if (toggle := self._toggle(now_s)) is not None:
+            self._send_if_allowed(toggle, now_s)
+        elif self._stop.is_active:
             self._send_if_allowed(self._stop.next_request(now_s, self.limits.frame), now_s)
         elif (request := self._release.next_request(self.limits.frame)) is not None:
             self._send_if_allowed(request, now_s)
@@ -263,23 +249,29 @@ class Supervisor:
             if self._commands.motion is not None:
                 self._send(self._commands.motion.command.permit, now_s)
             self._out.tell(told)
-        elif self._servo_wanted:
-            self._servo_wanted = False
-            self._send_if_allowed(nx100.SERVO_ON, now_s)
+        elif (request := self._servo.take()) is not None:
+            self._send_if_allowed(request, now_s)
         elif (poll := self._polling.next_request(now_s, self._pace(now_s))) is not None:
             self._send_if_allowed(poll, now_s)
+
+    def _toggle(self, now_s: float) -> Request | None:
+        """The supervised input, if its time has come: never before a command or servo power."""
+        if self._commands.pending is not None or self._servo.request is not None:
+            return None
+        status = self._read.status
+        return self._heartbeat.next_request(now_s, self._beats, self._stop, self._release, status)
 
     def _pace(self, now_s: float) -> Pace:
         if self._commands.motion is not None:
             return Pace.ENDING if self._commands.motion.seems_ended else Pace.MOVING
-        if self.is_armed and now_s - self._start_seen_s < DECIDING_S:
+        if self.is_armed and self._beats.is_deciding(now_s):
             return Pace.DECIDING
         if self._release.is_watching(now_s):
             return Pace.WATCHING
         return Pace.ARMED if self.is_armed else Pace.IDLE
 
     def _send_if_allowed(self, request: Request, now_s: float) -> None:
-        allowed = permit(request, self._view())
+        allowed = permit(request, self._view(), self.limits)
         if isinstance(allowed, Refusal):
             self._release.cancel()
             self._out.tell(m.Notice(f"{request} was not sent: {allowed.text}"))
@@ -306,8 +298,8 @@ class Supervisor:
                     self._link_broken(event, now_s)
 
     def _answered(self, event: Answered, now_s: float) -> None:
-        self._stop.answered(event.request, event.answer, now_s)
-        self._release.answered(event.request, event.answer, now_s)
+        for part in (self._stop, self._release, self._heartbeat):
+            part.answered(event.request, event.answer, now_s)
         match event.answer:
             case RobotStatus():
                 self._take_status(event.answer, now_s)
@@ -315,7 +307,7 @@ class Supervisor:
                 self._take_pose(event.answer, now_s)
             case Alarms():
                 self._read.alarms = event.answer.codes
-                self._report_status(now_s)
+                self._out.tell(self._read.report(now_s))
             case Failure() if event.request.name != "IMOV":
                 self._refusal_came(event.request, event.answer.words, now_s)
         if event.request.name == "IMOV":
@@ -327,66 +319,66 @@ class Supervisor:
         """Told once until it is taken again; without reads nobody knows what the robot does."""
         text = f"the robot refused {request}: {words}"
         self._out.tell_refused(request, text)
-        is_read = request == nx100.READ_STATUS or request.name == "RPOSC"
-        if is_read and self.may_move and not self._stop.is_active:
+        is_needed = request.name in ("RSTATS", "RPOSC", "IOWRITE")
+        if is_needed and self.may_move and not self._stop.is_active:
             self.stop(StopReason.ROBOT_CHANGED, text, now_s)
 
     def _take_status(self, status: RobotStatus, now_s: float) -> None:
         """A robot that changes by itself while it may move is stopped, latched."""
-        self._read.status, self._read.status_s = status, now_s
-        if not (status.has_alarm or status.has_error):
-            self._read.alarms = ()
-        elif not self._read.alarms:
+        self._read.take_status(status, now_s)
+        if self._read.wants_alarms:
             self._polling.want_alarms()
-        self._report_status(now_s)
+        self._out.tell(self._read.report(now_s))
+        self._leftover.note_status(status)
         if self._commands.motion is not None:
             self._commands.motion.note_status(status, self._sent_s)
         if self._stop.is_active:
             return
+        is_released = self._release.may_resume(now_s)
         change = find_change(
             status,
             is_commanded=self.has_commanded,
             may_move=self.may_move,
-            may_resume=self._permission.is_arming or self._release.is_watching(now_s),
+            may_resume=self._permission.is_arming or is_released,
         )
+        if is_released and change is not None and change.reason is StopReason.UNEXPECTED_MOTION:
+            self._leftover.went_on()
         self._stop_for(change, now_s)
 
     def _take_pose(self, pose: Pose, now_s: float) -> None:
-        self._read.pose, self._read.pose_s = pose, now_s
+        if self._read.take_pose(pose, now_s) and not self.has_commanded:
+            self._polling.want_status()
         self._out.tell(m.PoseReport(now_s, pose))
         if self._commands.motion is not None:
             self._commands.motion.note_pose(pose, self._sent_s)
 
-    def _report_status(self, now_s: float) -> None:
-        status = self._read.status
-        if status is not None:
-            alarms = self._read.alarms
-            self._out.tell(m.StatusReport(now_s, status.data_1, status.data_2, alarms))
-
     def _link_broken(self, event: LinkBroken, now_s: float) -> None:
-        may_resume = self._release.is_active or self._release.is_watching(now_s)
-        self._forget_robot(event.reason)
+        may_resume = self._release.may_resume(now_s)
+        self._forget_robot(event, now_s)
         if self.is_armed or self.has_commanded or may_resume:
             self.stop(StopReason.LINK_LOST, event.reason, now_s)
         self._lose_permission(event.reason)
 
-    def _forget_robot(self, reason: str) -> None:
+    def _forget_robot(self, event: LinkBroken, now_s: float) -> None:
         """The session is over: nothing that was read counts any more."""
-        self._out.drop(reason)
+        self._out.drop(event.reason)
+        self._heartbeat.link_broken(event.request, event.reason, now_s)
         self._read = Readings()
-        self._servo_wanted = False
+        self._servo.cancel()
         self._stop.link_broken()
 
     # What the clocks say.
 
     def _check_stop(self, now_s: float) -> None:
         outcome = self._stop.check(now_s)
-        if outcome is None:
-            return
         if isinstance(outcome, Standstill):
+            if self.has_commanded:
+                self._leftover.interrupted()
+            if self._leftover.is_kept:  # told before: it does not go on by itself
+                self._out.tell(self._permission.lose())
             self._commands.motion = None
             self._out.tell(m.StopConfirmed(outcome.reason, outcome.took_s, outcome.pose))
-        else:
+        elif outcome is not None:
             self._out.tell(m.StopUnconfirmed(outcome.reason, outcome.text))
 
     def _check_motion(self, now_s: float) -> None:
@@ -402,9 +394,7 @@ class Supervisor:
         """After the left arm's own stop the hold is released, once that arm is back in stop."""
         if self._release.take_done():
             self._out.tell(m.HoldReleased())
-        is_free = not (self._stop.is_active or self.has_commanded) and self._release.may_begin(
-            now_s
-        )
-        is_left_stop = self._beat is not None and self._beat.is_left_stop
-        if self.is_armed and is_free and is_left_stop and self._read.is_held_by_command:
+        is_wanted = self.is_armed and self._beats.is_left_stop and self._read.is_held_by_command
+        is_busy = self._stop.is_active or self.has_commanded
+        if is_wanted and not is_busy and self._release.may_begin(now_s):
             self._release.begin()

@@ -145,10 +145,10 @@ class ScriptedRobot:
             self.data_2 &= ~0x08
             self.stop_at_s = float("inf")
             if self.resumes and self.rest is not None:
-                self.move, self.rest, self.since_s = self.rest, None, now_s
+                self.move, self.rest, self.since_s = self.rest, None, now_s + self.start_s
         elif asked == "SVON 0":
             self.data_2 &= ~0x40
-            self.move = None
+            self.move = self.rest = None
         elif asked == "SVON 1":
             self.data_2 |= 0x40
         elif asked.startswith("IMOV"):
@@ -261,8 +261,11 @@ class Cell:
     def heard(self, kind):
         return [message for _, message in self.told if isinstance(message, kind)]
 
-    def forget(self):
+    def forget_told(self):
         self.told.clear()
+
+    def forget(self):
+        self.forget_told()
         self.wire.clear()
         self.robot.requests.clear()
 

@@ -260,21 +260,22 @@ VIEWS = st.builds(
 
 @given(VIEWS)
 def test_reads_and_stops_are_always_let_through(view):
-    assert [permit(request, view) for request in READS + STOPS] == [
+    assert [permit(request, view, LIMITS) for request in READS + STOPS] == [
         Permit(request) for request in READS + STOPS
     ]
 
 
 @given(VIEWS)
 def test_servo_power_comes_on_only_disarmed_and_standing(view):
-    is_let = isinstance(permit(nx100.SERVO_ON, view), Permit)
+    is_let = isinstance(permit(nx100.SERVO_ON, view, LIMITS), Permit)
 
-    assert is_let is not (view.is_armed or view.is_moving or view.is_stopping)
+    is_busy = view.is_armed or view.is_moving or view.is_stopping
+    assert is_let is (view.is_link_open and not is_busy)
 
 
 @given(VIEWS)
 def test_a_hold_is_released_only_at_standstill(view):
-    is_let = isinstance(permit(nx100.HOLD_OFF, view), Permit)
+    is_let = isinstance(permit(nx100.HOLD_OFF, view, LIMITS), Permit)
 
     assert is_let is not (view.is_moving or view.is_stopping)
 
@@ -288,14 +289,34 @@ COMMANDS = st.builds(
 @given(COMMANDS, VIEWS)
 def test_what_is_not_on_the_white_list_is_never_let_through(request, view):
     listed = {nx100.SERVO_ON, nx100.HOLD_OFF, *READS, *STOPS}
-    decision = permit(request, view)
+    decision = permit(request, view, LIMITS)
 
     assert isinstance(decision, Permit) is (request in listed and decision == Permit(request))
     if request not in listed:
         assert decision.reason == "not_listed"
 
 
+@given(
+    VIEWS, st.sampled_from([0, 22010, 22040, 23280]), st.integers(22000, 23300), st.integers(0, 255)
+)
+def test_of_the_inputs_only_the_sites_own_is_written_and_only_with_0_or_1(view, own, first, value):
+    limits = replace(LIMITS, supervision_input=own)
+    written = {first, own} if own else {first}
+    let = [
+        n for n in written if isinstance(permit(nx100.write_input(n, value), view, limits), Permit)
+    ]
+
+    assert let == ([own] if own and value in (0, 1) else [])
+
+
+@pytest.mark.parametrize("number", [1, 22000, 22011, 22018, 23288, 23290, -22010])
+def test_an_input_that_begins_no_byte_is_no_limit(number):
+    with pytest.raises(ValueError, match="multiple of 10 from 22010 to 23280"):
+        replace(LIMITS, supervision_input=number)
+
+
 BOUNDS = [
+    ("supervision_hz", 2.0, 10.0),
     ("speed_mm_s", 0.1, 250.0),
     ("speed_deg_s", 0.1, 30.0),
     ("frame", 0, 25),

@@ -26,6 +26,7 @@ ALL = [
     m.Propose(3, Direction(2, -1, True), 4.5),
     m.Stop(StopReason.STOP_PRESSED, "text\nwith a line \u00e9", 1.5),
     m.ServoOn(),
+    m.ServoOff(),
     m.Bye(),
     m.LinkReport(True, "x"),
     m.StatusReport(1.0, 194, 64, (4416, 1)),
@@ -42,6 +43,8 @@ ALL = [
     m.StopConfirmed(StopReason.LEFT_ARM, 0.2, POSE),
     m.StopUnconfirmed(StopReason.LINK_LOST, "x"),
     m.HoldReleased(),
+    m.Hindrances((REFUSAL, REFUSAL)),
+    m.Hindrances(()),
     m.Notice("x"),
 ]
 

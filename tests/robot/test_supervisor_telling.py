@@ -30,8 +30,7 @@ def test_servo_power_is_refused_while_armed_or_stopping(cell):
     assert "SVON 1" not in cell.asked()
     texts = {notice.text for notice in cell.heard(m.Notice)}
     assert texts == {
-        "servo power was not switched on: servo power is switched on only while disarmed and "
-        "standing"
+        "servo power was not switched on: servo power is switched only while disarmed and standing"
     }
 
 
