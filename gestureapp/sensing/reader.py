@@ -13,6 +13,7 @@ from gestureapp.sensing.protocols import protocol
 from gestureapp.sensing.values import (
     Connected,
     CounterGap,
+    CounterJump,
     DecoderEvent,
     Disconnected,
     Frame,
@@ -144,7 +145,7 @@ class SensorReader:
         for event in events:
             if isinstance(event, Frame):
                 self._hand_on_frame(event, t_s)
-            elif isinstance(event, CounterGap):
+            elif isinstance(event, CounterGap | CounterJump):
                 self._on_event(event)
             else:
                 self._hand_on_garbage(event, t_s)

@@ -6,6 +6,7 @@ from gestureapp.sensing.rate import RATE_SPAN_S, RateMeter, WorstGap
 from gestureapp.sensing.values import (
     Connected,
     CounterGap,
+    CounterJump,
     Disconnected,
     Garbage,
     Impossible,
@@ -19,6 +20,8 @@ from gestureapp.sensing.values import (
 
 RECENT_S = 1.0
 """So long after the last unreadable bytes the trouble is "wrong data"; later it is silence."""
+JUMP_REACH = 64
+"""So many more frames than time allows may be missing: a burst that was lost on its way."""
 
 _RESTART = "switch the sensor off and on"
 _SILENCE_REMEDY = "switch the sensor on, bring it closer, charge it"
@@ -72,6 +75,7 @@ class StreamTracker:
         self._garbage: Garbage | None = None
         self._garbage_s = -math.inf
         self._is_garbage_newest = False
+        self._jump = ""
         self._n_samples = 0
         self._n_bad = 0
         self._n_lost = 0
@@ -82,7 +86,9 @@ class StreamTracker:
             case Garbage():
                 self.garbage(t_s, event)
             case CounterGap():
-                self.gap(event)
+                self.gap(t_s, event)
+            case CounterJump():
+                self._jumped(f"running number jumped from {event.before} to {event.now}")
             case Connected():
                 self.connected(t_s)
             case Disconnected():
@@ -106,12 +112,23 @@ class StreamTracker:
         self._garbage_s = t_s
         self._is_garbage_newest = True
 
-    def gap(self, gap: CounterGap) -> None:
-        """Frames were lost on the way."""
+    def gap(self, t_s: float, gap: CounterGap) -> None:
+        """Frames were lost on the way; more than time allows are a jump of the sensor's clock."""
         self._n_lost += gap.missed
+        if self._newest_s is None:
+            return
+        most = (t_s - self._newest_s) * self._rate_max_hz + JUMP_REACH
+        if gap.missed > most:
+            self._jumped(f"running number jumped by {gap.missed}")
+
+    def _jumped(self, words: str) -> None:
+        """Nobody knows of when the samples are: the stream is judged anew, as a new connection."""
+        self._jump = words
+        self._rate.restart()
 
     def connected(self, t_s: float) -> None:
         """The port is open; the rate is measured anew."""
+        self._jump = ""
         self._is_connected = True
         self._connected_s = t_s
         self._newest_s = None
@@ -170,6 +187,8 @@ class StreamTracker:
         return LinkState.NO_DATA, f"no data for {_span(now_s - since_s)}: {_SILENCE_REMEDY}"
 
     def _rate_trouble(self, now_s: float, rate_hz: float) -> str:
+        if not self._rate.is_measured(now_s) and self._jump:
+            return f"{self._jump}: {_RESTART}, or wait {RATE_SPAN_S:g} s"
         if not self._rate.is_measured(now_s):
             return f"rate not known yet: wait {RATE_SPAN_S:g} s"
         limits = f"{self._rate_min_hz:g} to {self._rate_max_hz:g} Hz wanted"

@@ -56,7 +56,15 @@ class CounterGap:
     missed: int
 
 
-DecoderEvent = Frame | Garbage | CounterGap
+@dataclass(frozen=True, slots=True)
+class CounterJump:
+    """The running number went where no loss leads: what comes now may be of another time."""
+
+    before: int
+    now: int
+
+
+DecoderEvent = Frame | Garbage | CounterGap | CounterJump
 
 
 @dataclass(frozen=True, slots=True)
@@ -73,7 +81,7 @@ class Disconnected:
     reason: str
 
 
-SensorEvent = Garbage | CounterGap | Connected | Disconnected
+SensorEvent = Garbage | CounterGap | CounterJump | Connected | Disconnected
 """What a sensor's reader tells besides samples."""
 
 

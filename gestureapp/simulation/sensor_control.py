@@ -4,8 +4,8 @@
     {"do":"rest","at_s":T}                      right arm returns to rest; left arm to stop
     {"do":"take","posture":"start"|"stop","at_s":T}                      left arm
     {"do":"fault","kind":"none"|"silent"|"frozen"|"garbage"|"truncated"|"spike"|"slow"|"unplugged"
-                         |"stall", "seconds":S, "counts_on":bool, "spike_g":G, "rate_hz":R,
-                         "burst":bool}
+                         |"stall"|"jump", "seconds":S, "counts_on":bool, "spike_g":G,
+                         "rate_hz":R, "jump":n, "burst":bool}
     {"do":"log","count":k}                      the last k lines written
     {"do":"state"}
 
@@ -19,6 +19,7 @@ from dataclasses import dataclass
 from gestureapp.gestures import LABELS
 from gestureapp.sensing.values import ArmPosture, Side
 from gestureapp.simulation.sensor_model import (
+    JUMP,
     RATE_HZ,
     SLOW_HZ,
     SPIKE_G,
@@ -150,6 +151,7 @@ def _fault(model: SensorModel, command: Mapping[str, object], now_s: float, _: o
             _yes(command, "counts_on", True),
             _real(command, "spike_g", SPIKE_G, -1e6, 1e6),
             _real(command, "rate_hz", SLOW_HZ, 0.1, RATE_MAX_HZ),
+            int(_real(command, "jump", JUMP, -1e5, 1e5)),
             _yes(command, "burst", False),
         ),
         now_s,

@@ -24,6 +24,9 @@ SPIKE_G = 40.0
 SLOW_HZ = 20.0
 """Too slow for any cell to arm."""
 
+JUMP = -500
+"""Five seconds back."""
+
 BURST_MAX = 1000
 """Lines kept back at most during a stall that ends in a burst; the radio loses older ones."""
 
@@ -74,6 +77,8 @@ class FaultKind(Enum):
     """The connection is closed and new ones are refused."""
     STALL = "stall"
     """Nothing for a while; then what was kept back comes in one burst, or is lost."""
+    JUMP = "jump"
+    """The running number jumps once, as the sensor's clock would, and goes on from there."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -86,6 +91,7 @@ class Fault:
         counts_on: Frozen: whether the running number goes on.
         spike_g: Spike: the value.
         rate_hz: Slow: the rate.
+        jump: Jump: by how much; less than 0 is back in time.
         is_burst: Stall: whether what was kept back comes in one burst.
     """
 
@@ -94,6 +100,7 @@ class Fault:
     counts_on: bool = True
     spike_g: float = SPIKE_G
     rate_hz: float = SLOW_HZ
+    jump: int = JUMP
     is_burst: bool = False
 
 
@@ -176,6 +183,8 @@ class SensorModel:
         """Replace the present fault. Lines kept back by a stall are lost."""
         self._kept.clear()
         self.fault = fault
+        if fault.kind is FaultKind.JUMP:
+            self._counter = (self._counter + fault.jump) % COUNTER_SPAN
         self._fault_end_s = None if fault.seconds is None else now_s + fault.seconds
 
     def tick(self, now_s: float) -> Sequence[Emission]:

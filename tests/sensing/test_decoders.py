@@ -10,6 +10,7 @@ from gestureapp.sensing.counter import MAX_MISSED
 from gestureapp.sensing.protocols import PROTOCOLS, protocol
 from gestureapp.sensing.values import (
     CounterGap,
+    CounterJump,
     DecoderEvent,
     Frame,
     Garbage,
@@ -197,6 +198,17 @@ def test_a_sensor_that_starts_anew_has_lost_nothing(last: int):
 )
 def test_a_jump_of_more_than_a_minute_is_a_restart_not_a_loss(missed: int, told: bool):
     assert (CounterGap(missed) in numbers(10, 11 + missed)) is told
+
+
+@pytest.mark.parametrize(("before", "now"), [(10, 12 + MAX_MISSED), (5000, 4500), (5000, 4999)])
+def test_a_number_that_neither_a_loss_nor_a_restart_explains_is_a_jump(before: int, now: int):
+    assert CounterJump(before, now) in numbers(before - 1, before, now)
+
+
+@pytest.mark.parametrize("top", [1000, 1024, 9999])
+def test_a_counter_of_an_odd_width_wraps_without_a_jump(top: int):
+    events = numbers(top - 2, top - 1, 0, 1)
+    assert len(frames(events)) == len(events) == 4
 
 
 def test_a_frame_that_comes_twice_is_no_sample():

@@ -12,6 +12,7 @@ from gestureapp.sensing.stream import StreamTracker
 from gestureapp.sensing.values import (
     Connected,
     CounterGap,
+    CounterJump,
     Disconnected,
     Garbage,
     Impossible,
@@ -244,6 +245,29 @@ def test_a_gap_in_the_running_numbers_is_counted_as_lost():
     bench.tracker.event(bench.now_s, CounterGap(5))
     bench.tracker.event(bench.now_s, CounterGap(2))
     assert bench.health.n_lost == 7
+
+
+@pytest.mark.parametrize("event", [CounterJump(5000, 4500), CounterGap(500)])
+def test_a_sensor_whose_clock_jumps_is_not_used_until_it_has_been_judged_anew(event):
+    bench = Bench()
+    bench.stream(3.0)
+    bench.wait(0.01)
+    bench.tracker.event(bench.now_s, event)
+    bench.sample()
+    assert "running number jumped" in bench.health.reason
+    bench.stream(1.9)
+    assert not bench.health.is_ok
+    bench.stream(0.2)
+    assert bench.health.is_ok
+
+
+def test_frames_that_were_lost_in_the_time_they_take_are_no_jump():
+    bench = Bench()
+    bench.stream(3.0)
+    bench.wait(0.05)
+    bench.tracker.event(bench.now_s, CounterGap(5))
+    bench.sample()
+    assert bench.health.is_ok
 
 
 def test_a_lost_port_is_not_alive_although_the_last_sample_is_fresh():

@@ -16,6 +16,7 @@ from gestureapp.simulation.sensor_model import (
     SensorModel,
     Verb,
 )
+from gestureapp.simulation.sensor_wire import COUNTER_SPAN
 
 PUSH = ArmAction(Verb.PERFORM, "X+")
 LIFT = ArmAction(Verb.PERFORM, "Z+")
@@ -100,6 +101,15 @@ def test_a_silent_sensor_sends_nothing_and_its_running_number_goes_on(kind):
     assert model.is_unplugged is (kind is FaultKind.UNPLUGGED)
     model.set_fault(Fault(), 0.13)
     assert ticks(model, 13, 1)[0].counter == 13
+
+
+@pytest.mark.parametrize("jump", [-2, 1000, 70_000])
+def test_a_running_number_that_jumps_goes_on_from_there(jump):
+    model, _ = sensor()
+    ticks(model, 0, 5)
+    model.set_fault(Fault(FaultKind.JUMP, jump=jump), 0.05)
+    expected = [(5 + jump + n) % COUNTER_SPAN for n in range(3)]
+    assert [line.counter for line in ticks(model, 5, 3)] == expected
 
 
 @pytest.mark.parametrize("counts_on", [True, False])

@@ -31,6 +31,7 @@ BLOCKED_S = 5.0
 TOLD_S = 3.0
 """A stop that the robot has not confirmed is told 1.0 s after it was asked for."""
 DISK_WAIT_S = 6.0
+_STALLED = ("application stood still",)
 _LAST = "from the last good sample sent"
 _TRIP = f"trip level, {TRIP_MS:.0f} ms"
 _CELL_TRIP = f"the control thread, at the trip level, {TRIP_MS:.0f} ms"
@@ -56,6 +57,9 @@ SENSOR_FAULTS = (
     SILENT,
     SensorFault("frozen", "frozen on one value", (": frozen on one value", " silent")),
     SensorFault("garbage", "sends garbage", (": unreadable data", " silent")),
+    SensorFault(
+        "jump", "clock jumps", (": running number jumped",), "its running number", ROUND_MS
+    ),
     SensorFault("unplugged", "unplugged", (": connection to",), "its connection ends", 10),
 )
 
@@ -254,7 +258,7 @@ SCENARIOS = (
     ),
     Scenario(
         "pause", "application stopped (SIGSTOP)", _TRIP, TRIP_MS + ANSWER_MS, _pause,
-        ("paused", "stopped", "left sensor"),
+        _STALLED,
     ),
     Scenario(
         "window", f"window's thread blocked {BLOCKED_S:.0f} s", f"window limit, {GUI_MS:.0f} ms",
@@ -267,11 +271,12 @@ SCENARIOS = (
     ),
     Scenario(
         "lock", f"interpreter lock held {LOCKED_S} s by a C call", _TRIP, TRIP_MS + ANSWER_MS,
-        _hold_lock, ("paused", "left sensor", "stopped"),
+        _hold_lock, _STALLED,
     ),
     Scenario(
         "lock-silent", f"left sensor silent, and the interpreter lock held {LOCKED_S} s", _TRIP,
-        TRIP_MS + ANSWER_MS, _silence_and_hold_lock, SILENT.told_of(Side.LEFT),
+        TRIP_MS + ANSWER_MS, _silence_and_hold_lock,
+        (*SILENT.told_of(Side.LEFT), *_STALLED),
         counted=_LAST,
     ),
     *_sensor_scenarios(),
