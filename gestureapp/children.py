@@ -1,7 +1,12 @@
 """How the application starts itself as a child process: from source and from the frozen program."""
 
+import contextlib
 import os
+import subprocess
 import sys
+
+POLITE = 10
+"""Nice value of a child that works beside the cell."""
 
 
 def child_command(*arguments: str) -> list[str]:
@@ -26,3 +31,15 @@ def child_environment() -> dict[str, str]:
     paths = [path or os.getcwd() for path in sys.path]
     one = {"OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1", "MKL_NUM_THREADS": "1"}
     return {**os.environ, **one, "PYTHONPATH": os.pathsep.join(paths)}
+
+
+def start_beside(command: list[str]) -> subprocess.Popen[bytes]:
+    """Start a child that works when the cell leaves it the processor; its output is dropped."""
+    flags = getattr(subprocess, "BELOW_NORMAL_PRIORITY_CLASS", 0)
+    child = subprocess.Popen(
+        command, env=child_environment(), stdout=subprocess.DEVNULL, creationflags=flags
+    )
+    if hasattr(os, "setpriority"):
+        with contextlib.suppress(ProcessLookupError):  # it has ended already
+            os.setpriority(os.PRIO_PROCESS, child.pid, POLITE)
+    return child

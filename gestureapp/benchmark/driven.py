@@ -1,7 +1,6 @@
 """A demo cell with its window, driven by a script, and the truth that the emulators logged."""
 
 import contextlib
-import subprocess
 import threading
 import time
 from collections.abc import Callable, Iterator
@@ -10,7 +9,7 @@ from pathlib import Path
 
 from gestureapp.benchmark.controller_log import ControllerLog
 from gestureapp.cell.snapshot import CellState, Snapshot
-from gestureapp.children import child_command, child_environment
+from gestureapp.children import child_command, start_beside
 from gestureapp.clock import monotonic
 from gestureapp.config import Settings
 from gestureapp.errors import WorkerError
@@ -153,9 +152,7 @@ def training_beside(takes: Path | None) -> Iterator[None]:
 
     def train(stopping: threading.Event) -> None:
         while not stopping.is_set():
-            with subprocess.Popen(
-                command, env=child_environment(), stdout=subprocess.DEVNULL
-            ) as child:
+            with start_beside(command) as child:
                 while child.poll() is None:
                     if stopping.wait(0.05):
                         child.kill()
