@@ -93,6 +93,9 @@ class RobotSettings:
         frame: Coordinate frame of the increment: 0 base or 1 robot; the field of operation
             is known in no other.
         tool: Tool number, 0 to 23.
+        supervision_input: First network input of the byte that is toggled for a ladder on the
+            controller, 22010 where the integrator has chosen no other; 0 for no supervision.
+        supervision_hz: Toggles a second; 2 to 10. The ladder's timer must allow for 2.5 periods.
     """
 
     host: str = ""
@@ -108,6 +111,8 @@ class RobotSettings:
     margin_deg: float = 2.0
     frame: int = 1
     tool: int = 0
+    supervision_input: int = 0
+    supervision_hz: float = 5.0
 
 
 @dataclass(frozen=True, slots=True)

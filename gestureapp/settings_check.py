@@ -12,6 +12,7 @@ from typing import Any, Final
 
 from gestureapp.config import RobotSettings, SensorSettings, Settings, SiteSettings
 from gestureapp.robot.address import is_loopback
+from gestureapp.robot.nx100 import NETWORK_INPUTS
 
 UNITS: Final[Mapping[str, str]] = {
     "_mm_s": "mm/s",
@@ -88,6 +89,9 @@ RANGES: Final[Mapping[tuple[type, str], Range]] = {
     (RobotSettings, "margin_deg"): Range(0.1, 45.0),
     (RobotSettings, "frame"): Range(0, 1),
     (RobotSettings, "tool"): Range(0, 23),
+    (RobotSettings, "supervision_input"): Range(0, NETWORK_INPUTS[-1]),
+    # Slower, and a ladder's timer would let a robot run for long; faster, and moves would wait.
+    (RobotSettings, "supervision_hz"): Range(2.0, 10.0),
 }
 """Every number has one (a test sees to it)."""
 
@@ -107,6 +111,10 @@ def _at_least(new: Any, below: Any) -> bool:  # noqa: ANN401
     return bool(new >= below)
 
 
+def _the_same_or_none(new: Any, below: Any) -> bool:  # noqa: ANN401
+    return below in (0, new)
+
+
 def _inside(new: Any, below: Any) -> bool:  # noqa: ANN401 - a low and a high value
     return bool(below[0] <= new[0] and new[1] <= below[1])
 
@@ -122,6 +130,8 @@ NARROWER: Final[Mapping[str, tuple[Callable[[Any, Any], bool], str]]] = {
     "robot.margin_deg": (_at_least, "at least"),
     "robot.speed_mm_s": (_at_most, "at most"),
     "robot.speed_deg_s": (_at_most, "at most"),
+    "robot.supervision_input": (_the_same_or_none, "nothing but"),
+    "robot.supervision_hz": (_at_least, "at least"),
     "robot.rx_range_deg": (_inside, "a range inside"),
     "robot.ry_range_deg": (_inside, "a range inside"),
     "robot.rz_range_deg": (_inside, "a range inside"),
@@ -167,6 +177,8 @@ def why_out_of_range(owner: type, name: str, value: object) -> str:
     """What is wrong with one value by itself, and what is allowed; empty when nothing is."""
     if (owner, name) == (RobotSettings, "host"):
         return _why_no_address(value)
+    if (owner, name) == (RobotSettings, "supervision_input"):
+        return _why_no_input(value)
     allowed = RANGES.get((owner, name))
     if allowed is None:
         return ""
@@ -176,6 +188,13 @@ def why_out_of_range(owner: type, name: str, value: object) -> str:
     if name.endswith("_range_deg") and not numbers[0] < numbers[1]:
         return f"{shown(value)} is no range; the first number must be below the second"
     return ""
+
+
+def _why_no_input(number: object) -> str:
+    if number == 0 or (isinstance(number, int) and number in NETWORK_INPUTS):
+        return ""
+    first, last = NETWORK_INPUTS[0], NETWORK_INPUTS[-1]
+    return f"{shown(number)} is not allowed; allowed is 0, or a multiple of 10, {first} to {last}"
 
 
 def _why_no_address(host: object) -> str:

@@ -61,3 +61,16 @@ def test_a_simulation_opens_no_address_outside_this_machine(
     found = [str(finding) for finding in check_settings(settings)]
     words = f"robot.host: '{host}' is not this machine, and a simulation opens nothing else"
     assert found == ([] if is_fine else [f"{words}; use 127.0.0.1"])
+
+
+@pytest.mark.parametrize("number", [22010, 22020, 23280])
+def test_the_supervised_input_begins_a_byte_and_a_site_that_has_one_keeps_it(number):
+    supervised = replace(Settings(), robot=RobotSettings(supervision_input=number))
+    assert check_settings(supervised) == []
+    assert check_settings(supervised, Settings()) == []
+    (kept,) = check_settings(Settings(), supervised)
+    assert "allowed is nothing but" in str(kept)
+    (wrong,) = check_settings(
+        replace(Settings(), robot=RobotSettings(supervision_input=number + 1))
+    )
+    assert str(wrong).endswith("allowed is 0, or a multiple of 10, 22010 to 23280")

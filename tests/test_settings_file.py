@@ -16,6 +16,7 @@ from gestureapp.config import (
     Settings,
     SiteSettings,
 )
+from gestureapp.robot.nx100 import NETWORK_INPUTS
 from gestureapp.settings_check import NARROWER, PAIRS, RANGES, named_values
 from gestureapp.settings_file import (
     check_settings,
@@ -123,6 +124,8 @@ _TEXT = st.text(st.characters(codec="utf-8"), max_size=20)
 
 def _numbers(owner, name, value):
     allowed = RANGES[owner, name]
+    if name == "supervision_input":
+        return st.sampled_from([0, *NETWORK_INPUTS])
     if isinstance(value, int):
         return st.integers(int(allowed.low), int(allowed.high))
     one = st.floats(allowed.low, allowed.high)

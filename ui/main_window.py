@@ -154,7 +154,8 @@ class MainWindow(QMainWindow):
         self._slab.button.pressed.connect(self.stop)
         self._state.arm_wanted.connect(self._cell.arm)
         self._state.disarm_wanted.connect(self._cell.disarm)
-        self._state.servo_wanted.connect(self._cell.servo_on)
+        self._state.servo_on_wanted.connect(self._cell.servo_on)
+        self._state.servo_off_wanted.connect(self._cell.servo_off)
         self._keys = StopKeys(self.stop, self)
         app = QApplication.instance()
         if app is not None:

@@ -21,6 +21,9 @@ _WITH_PERMISSION = (
     CellState.STOPPING,
 )
 
+_SERVO_ON = "Switch the robot's servo power on"
+_SERVO_OFF = "Switch the robot's servo power off: discards the move that the controller keeps"
+
 
 class StatePanel(QFrame):
     """Word, sentence, arm, disarm, servo on.
@@ -28,12 +31,14 @@ class StatePanel(QFrame):
     Signals:
         arm_wanted: The arm button was held long enough.
         disarm_wanted: The permission is taken back.
-        servo_wanted: Servo power is asked for.
+        servo_on_wanted: Servo power is asked for.
+        servo_off_wanted: It is to go off, which discards a move that the controller keeps.
     """
 
     arm_wanted = Signal()
     disarm_wanted = Signal()
-    servo_wanted = Signal()
+    servo_on_wanted = Signal()
+    servo_off_wanted = Signal()
 
     def __init__(self, clock: Clock = monotonic, parent: QWidget | None = None) -> None:
         super().__init__(parent)
@@ -49,7 +54,8 @@ class StatePanel(QFrame):
         self._name_buttons()
         self._arm.held.connect(self.arm_wanted)
         self._disarm.clicked.connect(lambda: self.disarm_wanted.emit())
-        self._servo.clicked.connect(lambda: self.servo_wanted.emit())
+        self._servo.clicked.connect(self._press_servo)
+        self._is_servo_off = False
         buttons = QGridLayout()
         buttons.setSpacing(6)
         buttons.addWidget(self._arm, 0, 0, 1, 2)
@@ -80,18 +86,33 @@ class StatePanel(QFrame):
             self.setFocus()
         self._arm.setEnabled(snapshot.can_arm)
         self._disarm.setEnabled(has_permission)
+        is_kept = any(blocker.id == "move_kept" for blocker in snapshot.blockers)
+        self._name_servo(is_off=is_kept and status is not None and status.is_servo_on)
         self._servo.setEnabled(
             snapshot.robot.is_connected
             and status is not None
-            and not status.is_servo_on
+            and (not status.is_servo_on or self._is_servo_off)
             and not has_permission
         )
+
+    def _press_servo(self) -> None:
+        (self.servo_off_wanted if self._is_servo_off else self.servo_on_wanted).emit()
+
+    def _name_servo(self, *, is_off: bool) -> None:
+        """The same button leads through both steps, off and on again."""
+        if is_off == self._is_servo_off:
+            return
+        self._is_servo_off = is_off
+        spoken = _SERVO_OFF if is_off else _SERVO_ON
+        self._servo.setText("Servo off" if is_off else "Servo on")
+        self._servo.setAccessibleName(spoken)
+        self._servo.setToolTip(spoken)
 
     def _name_buttons(self) -> None:
         for button, name, spoken in (
             (self._arm, "armButton", "Arm: hold for one second. Arming moves nothing."),
             (self._disarm, "disarmButton", "Disarm: stops a running move"),
-            (self._servo, "servoButton", "Switch the robot's servo power on"),
+            (self._servo, "servoButton", _SERVO_ON),
         ):
             button.setObjectName(name)
             button.setAccessibleName(spoken)

@@ -7,7 +7,7 @@ from gestureapp.cell.snapshot import Snapshot
 from ui.labels import ElidedLabel
 from ui.marks import Level, Mark
 from ui.theme import SMALL_PX, TEXT_PX, sized
-from ui.words import Chip, mode_chip, robot_chip, stream_chip, strip_line
+from ui.words import Chip, mode_chip, robot_chip, stream_chip, strip_line, supervision_chip
 
 
 class ChipView(QWidget):
@@ -62,6 +62,7 @@ class StatusStrip(QFrame):
         self._left = ChipView("leftChip", "Left arm")
         self._right = ChipView("rightChip", "Right arm")
         self._robot = ChipView("robotChip", "Robot")
+        self._supervision = ChipView("supervisionChip", "Controller supervision")
         self._person = ChipView("personChip", "Person")
         self._model = ChipView("modelChip", "Model")
         self._recording = ChipView("recordingChip", "Recording")
@@ -76,6 +77,7 @@ class StatusStrip(QFrame):
             (self._left, 6),
             (self._right, 6),
             (self._robot, 6),
+            (self._supervision, 6),
             (self._person, 5),
             (self._model, 8),
             (self._recording, 8),
@@ -93,6 +95,7 @@ class StatusStrip(QFrame):
         self._left.show_chip(stream_chip(snapshot.left, snapshot.trip_level_s))
         self._right.show_chip(stream_chip(snapshot.right, snapshot.trip_level_s))
         self._robot.show_chip(robot_chip(snapshot.robot))
+        self._supervision.show_chip(supervision_chip(snapshot.robot))
         self._person.show_chip(
             Chip(Level.OK if snapshot.person else Level.OFF, snapshot.person or "nobody")
         )

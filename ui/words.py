@@ -85,6 +85,16 @@ def robot_chip(robot: RobotView) -> Chip:
     return Chip(Level.OK, "OK  servo on")
 
 
+def supervision_chip(robot: RobotView) -> Chip:
+    """Whether a ladder on the controller is told that the application is well."""
+    what = f"controller supervision: {robot.supervision}"
+    if robot.supervision == "off":
+        return Chip(Level.OFF, "off", what)
+    if not (robot.is_connected and robot.is_supervision_working):
+        return Chip(Level.ATTENTION, "not working", f"{what}; not working")
+    return Chip(Level.OK, robot.supervision, what)
+
+
 def mode_chip(is_simulation: bool) -> Chip:
     """LIVE or SIMULATION: whether a real robot can be reached."""
     return Chip(Level.BUSY, "SIMULATION") if is_simulation else Chip(Level.OK, "LIVE")

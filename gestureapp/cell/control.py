@@ -100,8 +100,7 @@ class Control:
         self._detector = PostureDetector(
             site.posture_enter_deg, site.posture_leave_deg, site.posture_debounce
         )
-        robot = settings.robot
-        self._robot = RobotMemory(f"{robot.host}:{robot.port}" if robot.host else "")
+        self._robot = RobotMemory(settings.robot)
         self._guardian: GuardianPort | None = None
         self._guardian_tried_s = float("-inf")
         self._guardian_trouble = ""
@@ -150,7 +149,7 @@ class Control:
             case GuardianSaid():
                 self._guardian_said(item.message)
             case ServoAsked():
-                self._send(m.ServoOn())
+                self._send(m.ServoOn() if item.is_on else m.ServoOff())
             case e.GuardianGone():
                 self._guardian_gone(item)
             case _:
@@ -362,6 +361,7 @@ class Control:
                 is_link_open=self._robot.is_open,
                 link_text=self._robot.text,
                 link_remedy=self._robot.remedy,
+                hindrances=self._robot.hindrances,
                 status=self._robot.status,
                 status_age_s=self._now_s - self._robot.status_s,
                 pose=self._robot.pose,

@@ -38,5 +38,8 @@ class CellControls(Protocol):
     def servo_on(self) -> None:
         """The operator asks for servo power; taken only while not armed."""
 
+    def servo_off(self) -> None:
+        """The operator asks for servo power to go off; taken only while not armed."""
+
     def shutdown(self) -> None:
         """Stop and disarm the robot, close the record, end all threads and children. Idempotent."""

@@ -130,7 +130,11 @@ class Cell:
 
     def servo_on(self) -> None:
         """The operator asks for servo power."""
-        self._control.put(ServoAsked())
+        self._control.put(ServoAsked(is_on=True))
+
+    def servo_off(self) -> None:
+        """The operator asks for servo power to go off."""
+        self._control.put(ServoAsked(is_on=False))
 
     def shutdown(self) -> None:
         """End everything; what may still move is stopped by the guardian first. Idempotent."""
@@ -233,6 +237,8 @@ def limits_of(settings: Settings) -> Limits:
         trip_level_s=site.trip_level_s,
         control_limit_s=site.control_limit_s,
         gui_limit_s=site.gui_limit_s,
+        supervision_input=robot.supervision_input,
+        supervision_hz=robot.supervision_hz,
     )
 
 

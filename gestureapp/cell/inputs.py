@@ -41,7 +41,9 @@ class GuardianSaid:
 
 @dataclass(frozen=True, slots=True)
 class ServoAsked:
-    """The operator wants servo power."""
+    """The operator wants servo power on, or off."""
+
+    is_on: bool
 
 
 Input = SampleCame | SensorTold | GuardianSaid | ServoAsked | e.Event

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 from gestureapp.cell.snapshot import Blocker
 from gestureapp.robot.gate import STATUS_MAX_AGE_S, robot_blocker
-from gestureapp.robot.values import Pose, RobotStatus
+from gestureapp.robot.values import Pose, Refusal, RobotStatus
 from gestureapp.robot.workspace import FieldOfOperation, find_outside
 from gestureapp.sensing.values import StreamHealth
 
@@ -22,6 +22,8 @@ _REMEDIES = {
     "servo_off": "press Servo on",
     "held": "release the hold on the pendant or the input",
     "running": "wait until the robot stands",
+    "move_kept": "press Servo off, which discards that move; then Servo on, and arm",
+    "supervision": "check the ladder and that the controller takes IOWRITE; see resources/nx100",
 }
 
 
@@ -43,6 +45,7 @@ class Facts:
         pose_age_s: How old that is.
         field: Where the tool may go.
         lock: Why arming is locked out at all, or empty.
+        hindrances: What the guardian knows to stand against it and no status shows.
         link_remedy: What to do about the line, where the guardian knows; else empty.
     """
 
@@ -60,6 +63,7 @@ class Facts:
     field: FieldOfOperation
     lock: str = ""
     link_remedy: str = ""
+    hindrances: tuple[Refusal, ...] = ()
 
 
 def find_blockers(facts: Facts) -> tuple[Blocker, ...]:
@@ -106,6 +110,8 @@ def _robot_blockers(facts: Facts) -> Iterator[Blocker]:
     if refusal is not None:
         cause = refusal.text.partition(": ")[0]
         yield Blocker("robot_state", cause, _REMEDIES.get(refusal.reason, refusal.text))
+    for refusal in facts.hindrances:
+        yield Blocker(refusal.reason, refusal.text, _REMEDIES[refusal.reason])
     if facts.pose is None:
         yield Blocker("robot_pose", "the robot has not told its position", "wait a moment")
     elif facts.pose_age_s > STATUS_MAX_AGE_S:

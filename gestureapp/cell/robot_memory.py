@@ -5,9 +5,10 @@ from collections.abc import Iterator
 from gestureapp.cell import events as e
 from gestureapp.cell.records import Json
 from gestureapp.cell.snapshot import RobotView
+from gestureapp.config import RobotSettings
 from gestureapp.gestures import Kind, gesture
 from gestureapp.robot import messages as m
-from gestureapp.robot.values import Direction, Pose, PoseIncrement, RobotStatus
+from gestureapp.robot.values import Direction, Pose, PoseIncrement, Refusal, RobotStatus
 
 _NO_ADDRESS = "no robot address is set"
 
@@ -23,9 +24,11 @@ class RobotMemory:
         status_s: When it was read.
         pose: Last RPOSC, or None.
         pose_s: When it was read.
+        hindrances: What stands against arming and no status shows.
     """
 
-    def __init__(self, address: str) -> None:
+    def __init__(self, robot: RobotSettings) -> None:
+        address = f"{robot.host}:{robot.port}" if robot.host else ""
         self.is_open = False
         self.text = "not connected yet" if address else _NO_ADDRESS
         self.remedy = ""
@@ -33,7 +36,11 @@ class RobotMemory:
         self.status_s = float("-inf")
         self.pose: Pose | None = None
         self.pose_s = float("-inf")
+        self.hindrances: tuple[Refusal, ...] = ()
         self._address = address
+        self._supervision = "off"
+        if robot.supervision_input:
+            self._supervision = f"on, #{robot.supervision_input}, {robot.supervision_hz:g} Hz"
         self._alarms: tuple[int, ...] = ()
         self._is_moving = False
         self._increment: PoseIncrement | None = None
@@ -53,6 +60,8 @@ class RobotMemory:
             case m.StatusReport():
                 self.status = RobotStatus(message.data_1, message.data_2)
                 self.status_s, self._alarms = message.t_s, message.alarms
+            case m.Hindrances():
+                self.hindrances = message.refusals
             case m.PoseReport():
                 self.pose, self.pose_s = message.pose, message.t_s
             case m.CommandSent():
@@ -80,6 +89,8 @@ class RobotMemory:
             start=self._start,
             limited_by=self._limited_by,
             speed=self._speed,
+            supervision=self._supervision,
+            is_supervision_working=not any(h.reason == "supervision" for h in self.hindrances),
         )
 
 

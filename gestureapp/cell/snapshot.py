@@ -75,6 +75,8 @@ class RobotView:
         start: Where that move began, or None.
         limited_by: What ends it, in words.
         speed: Its speed with unit, ``100.0 mm/s``.
+        supervision: Controller-side supervision in words: ``off``, ``on, #22010, 5 Hz``.
+        is_supervision_working: The controller takes the toggles; also true where it is off.
     """
 
     is_connected: bool
@@ -87,6 +89,8 @@ class RobotView:
     start: Pose | None = None
     limited_by: str = ""
     speed: str = ""
+    supervision: str = "off"
+    is_supervision_working: bool = True
 
 
 @dataclass(frozen=True, slots=True)

@@ -363,8 +363,10 @@ def test_stop_pressed_while_there_is_no_guardian_is_owed_to_the_next(desk):
 
 def test_servo_power_is_asked_of_the_guardian(desk):
     desk.ready()
-    desk.control.handle(ServoAsked(), desk.now_s)
+    desk.control.handle(ServoAsked(is_on=True), desk.now_s)
+    desk.control.handle(ServoAsked(is_on=False), desk.now_s)
     assert desk.guardian.of(m.ServoOn) == [m.ServoOn()]
+    assert desk.guardian.of(m.ServoOff) == [m.ServoOff()]
 
 
 def test_a_stop_for_an_alarm_stands_in_the_record_with_its_reason(desk):

@@ -8,7 +8,7 @@ from gestureapp.cell.engine import field_of
 from gestureapp.cell.readiness import Facts, find_blockers
 from gestureapp.config import Settings
 from gestureapp.robot.gate import STATUS_MAX_AGE_S
-from gestureapp.robot.values import Pose, RobotStatus
+from gestureapp.robot.values import Pose, Refusal, RobotStatus
 from gestureapp.sensing.values import LinkState, Side, StreamHealth
 
 REMOTE_PLAY, SERVO = 0xC0, 0x40
@@ -65,6 +65,16 @@ CASES = {
     ),
     "not in stop": (replace(READY, stop_seen_s=None), "left_stop", "not in the stop posture"),
     "too short in stop": (replace(READY, stop_seen_s=0.31), "left_stop", "0.3 s, 0.5 s are needed"),
+    "move kept": (
+        replace(READY, hindrances=(Refusal("move_kept", "the controller goes on"),)),
+        "move_kept",
+        "goes on",
+    ),
+    "supervision": (
+        replace(READY, hindrances=(Refusal("supervision", "it does not work"),)),
+        "supervision",
+        "does not work",
+    ),
     "training": (replace(READY, lock="a training is running"), "lock", "a training is running"),
     "no model": (replace(READY, model_problem="no model is set"), "model", "no model is set"),
     "no link": (

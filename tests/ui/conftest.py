@@ -211,6 +211,9 @@ class FakeCell:
     def servo_on(self) -> None:
         self.calls.append("servo_on")
 
+    def servo_off(self) -> None:
+        self.calls.append("servo_off")
+
     def shutdown(self) -> None:
         self.calls.append("shutdown")
 

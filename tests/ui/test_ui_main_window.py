@@ -14,7 +14,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from gestureapp.cell.snapshot import CellState
+from gestureapp.cell.snapshot import Blocker, CellState
 from gestureapp.gestures import GESTURES, LABELS
 from gestureapp.robot.values import RobotStatus
 from ui.alarm_bars import UNCONFIRMED, AlarmBars
@@ -91,6 +91,32 @@ def test_servo_on_works_only_while_the_servo_is_off(qtbot, window, cell):
     show(window, cell, replace(cell.shown, state=CellState.NOT_READY, robot=off, can_arm=False))
     qtbot.mouseClick(button(window, "servoButton"), Qt.MouseButton.LeftButton)
     assert cell.calls == ["servo_on"]
+
+
+def test_servo_off_is_offered_while_the_controller_keeps_a_move(qtbot, window, cell):
+    kept = Blocker("move_kept", "the controller goes on with the move", "press Servo off")
+    stopped = replace(cell.shown, state=CellState.STOPPED, blockers=(kept,), can_arm=False)
+    show(window, cell, stopped)
+    assert button(window, "servoButton").text() == "Servo off"
+    qtbot.mouseClick(button(window, "servoButton"), Qt.MouseButton.LeftButton)
+    off = replace(cell.shown.robot, status=RobotStatus(data_1=0xC0, data_2=8))
+    show(window, cell, replace(stopped, blockers=(), robot=off))
+    assert button(window, "servoButton").text() == "Servo on"
+    qtbot.mouseClick(button(window, "servoButton"), Qt.MouseButton.LeftButton)
+    assert cell.calls == ["servo_off", "servo_on"]
+
+
+@pytest.mark.parametrize(
+    ("robot", "text"),
+    [
+        ({}, "off"),
+        ({"supervision": "on, #22010, 5 Hz"}, "on, #22010, 5 Hz"),
+        ({"supervision": "on, #22010, 5 Hz", "is_supervision_working": False}, "not working"),
+    ],
+)
+def test_the_strip_shows_whether_the_controller_supervises(window, cell, robot, text):
+    show(window, cell, replace(cell.shown, robot=replace(cell.shown.robot, **robot)))
+    assert text_of(window, "supervisionChipValue") == text
 
 
 def test_each_recognised_gesture_is_named_with_its_certainty_and_time(window, cell, scenes):
