@@ -69,13 +69,30 @@ class SiteSettings:
 
 
 @dataclass(frozen=True, slots=True)
+class KeepOutSettings:
+    """A box that the tool point stays out of.
+
+    Attributes:
+        name: What stands there, as the window calls it.
+        low_mm: Its lowest x, y, z in the robot frame.
+        high_mm: Its highest.
+    """
+
+    name: str
+    low_mm: tuple[float, float, float]
+    high_mm: tuple[float, float, float]
+
+
+@dataclass(frozen=True, slots=True)
 class RobotSettings:
     """The robot, its field of operation and its speeds.
 
-    The field: two spheres around the robot frame's origin (paper, equation 1), and a range for each
-    angle. The defaults suit an HP6 without a tool: the wrist cannot be farther than 1378.5 mm from
-    the origin (150 + 570 + sqrt(155^2 + 640^2), its link lengths), and close to the column it
-    folds up.
+    The field: two spheres around the robot frame's origin (paper, equation 1), a floor, a ceiling,
+    the robot's own column, boxes to keep out of, and a range for each angle. It bounds the tool
+    point, not the arm's links. The origin is on the S axis at the height of the L axis, some 450 mm
+    above the mounting face. The defaults suit an HP6 without a tool: the wrist cannot be farther
+    than 1378.5 mm from the origin (150 + 570 + sqrt(155^2 + 640^2), its link lengths), and close to
+    the column it folds up.
 
     Attributes:
         host: Address of the NX100; empty when there is none.
@@ -83,6 +100,12 @@ class RobotSettings:
         ext_radius_mm: Outer sphere.
         int_radius_mm: Inner sphere.
         margin_mm: How far before the boundary an increment ends.
+        floor_mm: Lowest z of the tool point; the lowest value allowed lies below all it can reach.
+        ceiling_mm: Highest z of the tool point; the highest value lies above all it can reach.
+        column_radius_mm: The robot's own column, a cylinder round the S axis; 0 for none.
+        column_top_mm: z of its upper end: the upright lower arm, the forearm on it, and some more.
+        keep_outs: Boxes to keep out of, 8 at most, each {name = "fixture", low_mm = [x, y, z],
+            high_mm = [x, y, z]}; those of a later layer are added.
         speed_mm_s: Speed of a translation; at most 250.
         speed_deg_s: Speed of a rotation; at most 30.
         rx_range_deg: Lowest and highest Rx; may pass 180, as a tool that points down reads
@@ -92,7 +115,8 @@ class RobotSettings:
         margin_deg: How far before the end of a range a rotation ends.
         frame: Coordinate frame of the increment: 0 base or 1 robot; the field of operation
             is known in no other.
-        tool: Tool number, 0 to 23.
+        tool: Tool number, 0 to 23; the controller must tell its position for the same one.
+        tool_mm: Tool point seen from the flange, as the controller's tool file has it.
         supervision_input: First network input of the byte that is toggled for a ladder on the
             controller, 22010 where the integrator has chosen no other; 0 for no supervision.
         supervision_hz: Toggles a second; 2 to 10. The ladder's timer must allow for 2.5 periods.
@@ -103,6 +127,11 @@ class RobotSettings:
     ext_radius_mm: float = 1200.0
     int_radius_mm: float = 500.0
     margin_mm: float = 20.0
+    floor_mm: float = -300.0
+    ceiling_mm: float = 1000.0
+    column_radius_mm: float = 350.0
+    column_top_mm: float = 800.0
+    keep_outs: tuple[KeepOutSettings, ...] = ()
     speed_mm_s: float = 100.0
     speed_deg_s: float = 10.0
     rx_range_deg: tuple[float, float] = (120.0, 240.0)
@@ -111,8 +140,45 @@ class RobotSettings:
     margin_deg: float = 2.0
     frame: int = 1
     tool: int = 0
+    tool_mm: tuple[float, float, float] = (0.0, 0.0, 0.0)
     supervision_input: int = 0
     supervision_hz: float = 5.0
+
+
+@dataclass(frozen=True, slots=True)
+class JointSettings:
+    """What the HP6's joints may do on the way: ranges, and margins to them and to singular places.
+
+    Angles count from the home position, all pulses 0: lower arm upright, forearm level, flange
+    straight ahead of it. S, L, R and T are the published ranges. B is published as -45 to 225: a
+    wrist bends alike both ways, so that range is a right angle off our zero, which is 135 either
+    way; as -45 to 225 from straight it would fold through the forearm. U is published against the
+    horizontal and says nothing about U against the lower arm, where the two parts touch; ours keeps
+    to the middle. Compare all six with the pendant's before a real robot moves.
+
+    Attributes:
+        s_range_deg: Lowest and highest S, to the left.
+        l_range_deg: Lower arm, forwards.
+        u_range_deg: Forearm against the lower arm, upwards; 76.4 is stretched.
+        r_range_deg: Turn of the forearm.
+        b_range_deg: Bend of the wrist, upwards; 0 is straight.
+        t_range_deg: Turn of the flange.
+        margin_deg: How far from the ends of the ranges an increment ends.
+        wrist_margin_deg: How far B stays from 0, where R and T would swing round.
+        elbow_margin_deg: How far the elbow stays from stretched and from folded.
+        shoulder_margin_mm: How far the wrist centre stays from the S axis.
+    """
+
+    s_range_deg: tuple[float, float] = (-170.0, 170.0)
+    l_range_deg: tuple[float, float] = (-90.0, 155.0)
+    u_range_deg: tuple[float, float] = (-80.0, 80.0)
+    r_range_deg: tuple[float, float] = (-180.0, 180.0)
+    b_range_deg: tuple[float, float] = (-135.0, 135.0)
+    t_range_deg: tuple[float, float] = (-360.0, 360.0)
+    margin_deg: float = 10.0
+    wrist_margin_deg: float = 10.0
+    elbow_margin_deg: float = 15.0
+    shoulder_margin_mm: float = 100.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -136,5 +202,6 @@ class Settings:
     right: SensorSettings = field(default_factory=SensorSettings)
     site: SiteSettings = field(default_factory=SiteSettings)
     robot: RobotSettings = field(default_factory=RobotSettings)
+    joints: JointSettings = field(default_factory=JointSettings)
     person: PersonSettings = field(default_factory=PersonSettings)
     is_simulation: bool = False

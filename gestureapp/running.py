@@ -106,7 +106,7 @@ def describe(settings: Settings) -> dict[str, str]:
         "mode": "simulation" if settings.is_simulation else "live",
         "person": settings.person.name,
     }
-    for table in ("left", "right", "site", "robot", "person"):
+    for table in ("left", "right", "site", "robot", "joints", "person"):
         values = getattr(settings, table)
         facts |= {f"{table}.{f.name}": str(getattr(values, f.name)) for f in fields(values)}
     return facts

@@ -10,9 +10,20 @@ from dataclasses import dataclass, fields, is_dataclass
 from pathlib import Path
 from typing import Any, Final
 
-from gestureapp.config import RobotSettings, SensorSettings, Settings, SiteSettings
+from gestureapp.config import (
+    JointSettings,
+    KeepOutSettings,
+    RobotSettings,
+    SensorSettings,
+    Settings,
+    SiteSettings,
+)
 from gestureapp.robot.address import is_loopback
 from gestureapp.robot.nx100 import NETWORK_INPUTS
+
+MAX_KEEP_OUTS: Final = 8
+MAX_NAME_CHARS: Final = 30
+"""Of a keep-out: it stands in the window beside its box."""
 
 UNITS: Final[Mapping[str, str]] = {
     "_mm_s": "mm/s",
@@ -79,6 +90,12 @@ RANGES: Final[Mapping[tuple[type, str], Range]] = {
     (RobotSettings, "ext_radius_mm"): Range(100.0, 1378.5),
     (RobotSettings, "int_radius_mm"): Range(100.0, 1378.5),
     (RobotSettings, "margin_mm"): Range(1.0, 200.0),
+    # The outermost lie beyond every place of the tool: no floor, no ceiling.
+    (RobotSettings, "floor_mm"): Range(-1500.0, 1500.0),
+    (RobotSettings, "ceiling_mm"): Range(-1500.0, 1500.0),
+    (RobotSettings, "column_radius_mm"): Range(0.0, 1000.0),
+    (RobotSettings, "column_top_mm"): Range(-1500.0, 1500.0),
+    (RobotSettings, "keep_outs"): Range(-3000.0, 3000.0),
     (RobotSettings, "speed_mm_s"): Range(1.0, 250.0),
     (RobotSettings, "speed_deg_s"): Range(0.5, 30.0),
     # A tool that points down reads Rx = 180, so a range about it passes 180: up to a full turn.
@@ -92,11 +109,24 @@ RANGES: Final[Mapping[tuple[type, str], Range]] = {
     (RobotSettings, "supervision_input"): Range(0, NETWORK_INPUTS[-1]),
     # Slower, and a ladder's timer would let a robot run for long; faster, and moves would wait.
     (RobotSettings, "supervision_hz"): Range(2.0, 10.0),
+    (RobotSettings, "tool_mm"): Range(-1000.0, 1000.0),
+    (JointSettings, "s_range_deg"): Range(-180.0, 180.0),
+    (JointSettings, "l_range_deg"): Range(-180.0, 180.0),
+    (JointSettings, "u_range_deg"): Range(-180.0, 180.0),
+    # What the controller tells of R and T is unique up to a full turn either way.
+    (JointSettings, "r_range_deg"): Range(-360.0, 360.0),
+    (JointSettings, "b_range_deg"): Range(-180.0, 180.0),
+    (JointSettings, "t_range_deg"): Range(-360.0, 360.0),
+    (JointSettings, "margin_deg"): Range(1.0, 30.0),
+    (JointSettings, "wrist_margin_deg"): Range(1.0, 60.0),
+    (JointSettings, "elbow_margin_deg"): Range(1.0, 60.0),
+    (JointSettings, "shoulder_margin_mm"): Range(1.0, 500.0),
 }
 """Every number has one (a test sees to it)."""
 
 PAIRS: Final[tuple[tuple[str, str], ...]] = (
     ("robot.int_radius_mm", "robot.ext_radius_mm"),
+    ("robot.floor_mm", "robot.ceiling_mm"),
     ("site.posture_enter_deg", "site.posture_leave_deg"),
     ("site.rate_min_hz", "site.rate_max_hz"),
 )
@@ -119,6 +149,10 @@ def _inside(new: Any, below: Any) -> bool:  # noqa: ANN401 - a low and a high va
     return bool(below[0] <= new[0] and new[1] <= below[1])
 
 
+def _with_all(new: Any, below: Any) -> bool:  # noqa: ANN401 - keep-outs
+    return set(below) <= set(new)
+
+
 NARROWER: Final[Mapping[str, tuple[Callable[[Any, Any], bool], str]]] = {
     "site.trip_level_s": (_at_most, "at most"),
     "site.control_limit_s": (_at_most, "at most"),
@@ -128,6 +162,11 @@ NARROWER: Final[Mapping[str, tuple[Callable[[Any, Any], bool], str]]] = {
     "robot.int_radius_mm": (_at_least, "at least"),
     "robot.margin_mm": (_at_least, "at least"),
     "robot.margin_deg": (_at_least, "at least"),
+    "robot.floor_mm": (_at_least, "at least"),
+    "robot.ceiling_mm": (_at_most, "at most"),
+    "robot.column_radius_mm": (_at_least, "at least"),
+    "robot.column_top_mm": (_at_least, "at least"),
+    "robot.keep_outs": (_with_all, "more than"),
     "robot.speed_mm_s": (_at_most, "at most"),
     "robot.speed_deg_s": (_at_most, "at most"),
     "robot.supervision_input": (_the_same_or_none, "nothing but"),
@@ -135,6 +174,11 @@ NARROWER: Final[Mapping[str, tuple[Callable[[Any, Any], bool], str]]] = {
     "robot.rx_range_deg": (_inside, "a range inside"),
     "robot.ry_range_deg": (_inside, "a range inside"),
     "robot.rz_range_deg": (_inside, "a range inside"),
+    **{f"joints.{axis}_range_deg": (_inside, "a range inside") for axis in "slurbt"},
+    "joints.margin_deg": (_at_least, "at least"),
+    "joints.wrist_margin_deg": (_at_least, "at least"),
+    "joints.elbow_margin_deg": (_at_least, "at least"),
+    "joints.shoulder_margin_mm": (_at_least, "at least"),
 }
 """What limits motion: a later layer may set it narrower than the site, never wider."""
 
@@ -182,6 +226,8 @@ def why_out_of_range(owner: type, name: str, value: object) -> str:
     allowed = RANGES.get((owner, name))
     if allowed is None:
         return ""
+    if (owner, name) == (RobotSettings, "keep_outs") and isinstance(value, tuple):
+        return why_no_keep_outs(value, allowed)
     numbers = value if isinstance(value, tuple) else (value,)
     if not all(isinstance(n, int | float) and math.isfinite(n) and n in allowed for n in numbers):
         return f"{shown(value)} is not allowed; allowed is {allowed}{_unit_text(name)}"
@@ -195,6 +241,21 @@ def _why_no_input(number: object) -> str:
         return ""
     first, last = NETWORK_INPUTS[0], NETWORK_INPUTS[-1]
     return f"{shown(number)} is not allowed; allowed is 0, or a multiple of 10, {first} to {last}"
+
+
+def why_no_keep_outs(boxes: tuple[KeepOutSettings, ...], allowed: Range) -> str:
+    """What is wrong with boxes to keep out of, and what is allowed; empty when nothing is."""
+    if len(boxes) > MAX_KEEP_OUTS:
+        return f"{len(boxes)} are too many; allowed are {MAX_KEEP_OUTS}"
+    for box in boxes:
+        if not box.name.strip() or not box.name.isprintable() or len(box.name) > MAX_NAME_CHARS:
+            return f"{shown(box.name)} is no name; give one of 1 to {MAX_NAME_CHARS} characters"
+        for low, high in zip(box.low_mm, box.high_mm, strict=True):
+            if not (low in allowed and high in allowed and low < high):
+                corners = f"{shown(box.low_mm)} and {shown(box.high_mm)}"
+                rule = f"each number of low_mm below that of high_mm, all {allowed} mm"
+                return f"{shown(box.name)} has the corners {corners}; allowed is {rule}"
+    return ""
 
 
 def _why_no_address(host: object) -> str:
@@ -246,6 +307,8 @@ def shown(value: object) -> str:
         text = f"[{', '.join(shown(item) for item in value[:4])}{', …' * (len(value) > 4)}]"
     elif isinstance(value, bool):
         text = str(value).lower()
+    elif isinstance(value, KeepOutSettings):
+        text = shown(value.name)
     else:
         text = repr(value)
     return text if len(text) <= 60 else f"{text[:57]}…"

@@ -15,7 +15,7 @@ from pathlib import Path
 from types import UnionType
 from typing import Any, Final, get_args, get_origin, get_type_hints
 
-from gestureapp.config import SCHEMA_VERSION, Settings
+from gestureapp.config import SCHEMA_VERSION, KeepOutSettings, RobotSettings, Settings
 from gestureapp.errors import ConfigError
 from gestureapp.settings_check import (
     SettingsFinding,
@@ -38,6 +38,7 @@ __all__ = [
 ]
 
 SCHEMA_KEY: Final = "schema"
+_KEEP_OUTS: Final = "robot.keep_outs"
 _MAX_BYTES: Final = 100_000
 """A settings file has some thousand bytes; more is a file taken by mistake."""
 _MAX_STATEMENT_LINES: Final = 50
@@ -137,6 +138,9 @@ class _Layer:
             if key not in hints:
                 self._report(name, f"unknown{_did_you_mean(key, list(hints))}; it is left out")
                 continue
+            if name == _KEEP_OUTS:
+                yield name, self._keep_outs(raw, below[name])
+                continue
             try:
                 value = _converted(raw, hints[key], self._file.parent)
             except _WrongType as wrong:
@@ -149,6 +153,29 @@ class _Layer:
                     yield name, value
                     continue
             self._report(name, f"{text}; {shown(_plain(below[name]))} is used")
+
+    def _keep_outs(
+        self, raw: object, below: tuple[KeepOutSettings, ...]
+    ) -> tuple[KeepOutSettings, ...]:
+        """Those below and those of this file.
+
+        Raises:
+            ConfigError: one is wrong. Left out, the robot would go where somebody forbade it.
+        """
+        boxes = list(below)
+        for i, item in enumerate(raw if isinstance(raw, list) else [raw]):
+            try:
+                box = _keep_out(item, self._file.parent)
+            except _WrongType as wrong:
+                text = f"{shown(item)} is not allowed; allowed is {wrong}"
+            else:
+                boxes += [box] if box not in boxes else []
+                text = why_out_of_range(RobotSettings, "keep_outs", tuple(boxes))
+            if text:
+                line = self._line(f"{_KEEP_OUTS}.{i}") or self._line(_KEEP_OUTS)
+                where = self._file if line is None else f"{self._file}, line {line}"
+                raise ConfigError(_KEEP_OUTS, "as given", f"{where}: {text}")
+        return tuple(boxes)
 
     def _report_pair(self, values: Mapping[str, Any], low: str, high: str) -> None:
         here = low if low in self._line_table() else high
@@ -249,6 +276,13 @@ _KIND_WORDS: Final[Mapping[type, str]] = {
 }
 
 
+def _keep_out(raw: object, folder: Path) -> KeepOutSettings:
+    hints = get_type_hints(KeepOutSettings)
+    if not isinstance(raw, dict) or set(raw) != set(hints):
+        raise _WrongType('name = "…", low_mm = [x, y, z] and high_mm = [x, y, z]')
+    return KeepOutSettings(**{key: _converted(raw[key], hints[key], folder) for key in hints})
+
+
 def _number(raw: object) -> float:
     if isinstance(raw, bool) or not isinstance(raw, int | float):
         raise _WrongType("a number")
@@ -301,6 +335,7 @@ def _lines_of(text: str) -> Mapping[str, int]:
     """
     lines: dict[str, int] = {}
     table: tuple[str, ...] = ()
+    n_of: dict[tuple[str, ...], int] = {}
     statement, start = "", 1
     for number, line in enumerate(text.split("\n"), 1):
         if not statement:
@@ -315,6 +350,9 @@ def _lines_of(text: str) -> Mapping[str, int]:
         paths = list(_paths(found))
         if statement.lstrip().startswith("["):
             table = paths[0] if paths else ()
+            if statement.lstrip().startswith("[["):
+                n_of[table] = n_of.get(table, -1) + 1
+                table = (*table, str(n_of[table]))
             paths = [()]
         statement = ""
         for path in paths:

@@ -10,7 +10,7 @@ from enum import Enum
 from pathlib import Path
 from typing import Final
 
-from gestureapp.config import SCHEMA_VERSION, Settings
+from gestureapp.config import SCHEMA_VERSION, KeepOutSettings, Settings
 from gestureapp.settings_check import RANGES, unit_of
 
 _ATTRIBUTE: Final = re.compile(r"^    (\w+): ", re.MULTILINE)
@@ -83,6 +83,9 @@ def _toml(value: object) -> str:
             return str(value).lower()
         case int() | float():
             return repr(value)
+        case KeepOutSettings():
+            pairs = (f"{f.name} = {_toml(getattr(value, f.name))}" for f in fields(value))
+            return f"{{ {', '.join(pairs)} }}"
         case tuple():
             return f"[{', '.join(_toml(item) for item in value)}]"
         case Enum():

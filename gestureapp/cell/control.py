@@ -364,9 +364,10 @@ class Control:
                 hindrances=self._robot.hindrances,
                 status=self._robot.status,
                 status_age_s=self._now_s - self._robot.status_s,
-                pose=self._robot.pose,
+                position=self._robot.position,
                 pose_age_s=self._now_s - self._robot.pose_s,
                 field=self._field,
+                tool=self._settings.robot.tool,
             )
         )
 

@@ -12,13 +12,15 @@ from gestureapp.cell.inputs import GuardianPort, GuardianSaid, SampleCame, Senso
 from gestureapp.cell.records import Record, Recorder, Topic
 from gestureapp.cell.snapshot import RecordingView, Snapshot
 from gestureapp.clock import Clock, monotonic
-from gestureapp.config import DriveMode, RobotSettings, SensorSettings, Settings
+from gestureapp.config import DriveMode, JointSettings, SensorSettings, Settings
 from gestureapp.errors import ConfigError, GuardianLost, ModelError, WorkerError
 from gestureapp.gestures import LABELS
 from gestureapp.recognition.model_file import load_model
 from gestureapp.recognition.paper import PaperRecogniser
 from gestureapp.recognition.values import Recogniser
+from gestureapp.robot.arm import ArmLimits
 from gestureapp.robot.gate import Limits
+from gestureapp.robot.obstacles import Column, KeepOut
 from gestureapp.robot.workspace import FieldOfOperation
 from gestureapp.sensing.posture import PostureDetector
 from gestureapp.sensing.reader import SensorReader
@@ -213,14 +215,39 @@ def find_recogniser(settings: Settings) -> tuple[Recogniser | None, str, str]:
     return recogniser, f"{path.stem} ({model.training.preset})", ""
 
 
-def field_of(robot: RobotSettings) -> FieldOfOperation:
+def field_of(settings: Settings) -> FieldOfOperation:
     """The field of operation that the settings describe."""
+    robot = settings.robot
+    column = Column(robot.column_radius_mm, robot.column_top_mm) if robot.column_radius_mm else None
     return FieldOfOperation(
         ext_radius_mm=robot.ext_radius_mm,
         int_radius_mm=robot.int_radius_mm,
         margin_mm=robot.margin_mm,
         ranges_deg=(robot.rx_range_deg, robot.ry_range_deg, robot.rz_range_deg),
         margin_deg=robot.margin_deg,
+        floor_mm=robot.floor_mm,
+        ceiling_mm=robot.ceiling_mm,
+        column=column,
+        keep_outs=tuple(KeepOut(box.name, box.low_mm, box.high_mm) for box in robot.keep_outs),
+        arm=_arm_limits_of(settings.joints, robot.tool_mm),
+    )
+
+
+def _arm_limits_of(joints: JointSettings, tool_mm: tuple[float, float, float]) -> ArmLimits:
+    return ArmLimits(
+        tool_mm=tool_mm,
+        ranges_deg=(
+            joints.s_range_deg,
+            joints.l_range_deg,
+            joints.u_range_deg,
+            joints.r_range_deg,
+            joints.b_range_deg,
+            joints.t_range_deg,
+        ),
+        joint_margin_deg=joints.margin_deg,
+        wrist_margin_deg=joints.wrist_margin_deg,
+        elbow_margin_deg=joints.elbow_margin_deg,
+        shoulder_margin_mm=joints.shoulder_margin_mm,
     )
 
 
@@ -228,7 +255,7 @@ def limits_of(settings: Settings) -> Limits:
     """What the guardian is given at its start."""
     robot, site = settings.robot, settings.site
     return Limits(
-        field=field_of(robot),
+        field=field_of(settings),
         speed_mm_s=robot.speed_mm_s,
         speed_deg_s=robot.speed_deg_s,
         frame=robot.frame,

@@ -7,8 +7,8 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from gestureapp.cell.snapshot import Blocker
-from gestureapp.robot.gate import STATUS_MAX_AGE_S, robot_blocker
-from gestureapp.robot.values import Pose, Refusal, RobotStatus
+from gestureapp.robot.gate import STATUS_MAX_AGE_S, find_foreign_tool, robot_blocker
+from gestureapp.robot.values import Position, Refusal, RobotStatus
 from gestureapp.robot.workspace import FieldOfOperation, find_outside
 from gestureapp.sensing.values import StreamHealth
 
@@ -41,9 +41,10 @@ class Facts:
         link_text: The line's own words.
         status: Last RSTATS, or None.
         status_age_s: How old that is.
-        pose: Last RPOSC, or None.
+        position: Last RPOSC, or None.
         pose_age_s: How old that is.
         field: Where the tool may go.
+        tool: Number of the tool that the settings have.
         lock: Why arming is locked out at all, or empty.
         hindrances: What the guardian knows to stand against it and no status shows.
         link_remedy: What to do about the line, where the guardian knows; else empty.
@@ -58,9 +59,10 @@ class Facts:
     link_text: str
     status: RobotStatus | None
     status_age_s: float
-    pose: Pose | None
+    position: Position | None
     pose_age_s: float
     field: FieldOfOperation
+    tool: int
     lock: str = ""
     link_remedy: str = ""
     hindrances: tuple[Refusal, ...] = ()
@@ -112,11 +114,14 @@ def _robot_blockers(facts: Facts) -> Iterator[Blocker]:
         yield Blocker("robot_state", cause, _REMEDIES.get(refusal.reason, refusal.text))
     for refusal in facts.hindrances:
         yield Blocker(refusal.reason, refusal.text, _REMEDIES[refusal.reason])
-    if facts.pose is None:
+    if facts.position is None:
         yield Blocker("robot_pose", "the robot has not told its position", "wait a moment")
     elif facts.pose_age_s > STATUS_MAX_AGE_S:
         text = f"the robot's position is {facts.pose_age_s:.1f} s old"
         yield Blocker("robot_pose", text, _REMEDIES["no_status"])
-    elif (outside := find_outside(facts.pose, facts.field)) is not None:
+    elif (foreign := find_foreign_tool(facts.position, facts.tool)) is not None:
+        cause = foreign.text.partition(": ")[0]
+        yield Blocker("robot_pose", cause, "select that tool on the pendant")
+    elif (outside := find_outside(facts.position, facts.field)) is not None:
         remedy = "move the tool back into the field with the pendant"
         yield Blocker("robot_pose", outside.text, remedy)

@@ -8,7 +8,7 @@ from gestureapp.cell.snapshot import RobotView
 from gestureapp.config import RobotSettings
 from gestureapp.gestures import Kind, gesture
 from gestureapp.robot import messages as m
-from gestureapp.robot.values import Direction, Pose, PoseIncrement, Refusal, RobotStatus
+from gestureapp.robot.values import Direction, Pose, PoseIncrement, Position, Refusal, RobotStatus
 
 _NO_ADDRESS = "no robot address is set"
 
@@ -22,7 +22,7 @@ class RobotMemory:
         remedy: What to do about it, where the guardian knows; else empty.
         status: Last RSTATS, or None.
         status_s: When it was read.
-        pose: Last RPOSC, or None.
+        position: Last RPOSC, or None.
         pose_s: When it was read.
         hindrances: What stands against arming and no status shows.
     """
@@ -34,7 +34,7 @@ class RobotMemory:
         self.remedy = ""
         self.status: RobotStatus | None = None
         self.status_s = float("-inf")
-        self.pose: Pose | None = None
+        self.position: Position | None = None
         self.pose_s = float("-inf")
         self.hindrances: tuple[Refusal, ...] = ()
         self._address = address
@@ -63,7 +63,7 @@ class RobotMemory:
             case m.Hindrances():
                 self.hindrances = message.refusals
             case m.PoseReport():
-                self.pose, self.pose_s = message.pose, message.t_s
+                self.position, self.pose_s = message.position, message.t_s
             case m.CommandSent():
                 self._increment, self._start = message.increment, message.start
                 self._limited_by = message.limited_by
@@ -82,7 +82,7 @@ class RobotMemory:
             is_connected=self.is_open,
             text=f"{where}{alarms}",
             status=self.status,
-            pose=self.pose,
+            pose=self.position.pose if self.position else None,
             pose_age_s=now_s - self.pose_s,
             is_moving=self._is_moving,
             increment=self._increment,
@@ -131,6 +131,6 @@ def robot_fields(message: m.StatusReport | m.PoseReport) -> dict[str, Json]:
     """What the robot answered, as the record's topic has it."""
     if isinstance(message, m.StatusReport):
         return {"data_1": message.data_1, "data_2": message.data_2}
-    pose = message.pose
+    pose = message.position.pose
     names = ("x_mm", "y_mm", "z_mm", "rx_deg", "ry_deg", "rz_deg")
     return {name: getattr(pose, name) for name in names}

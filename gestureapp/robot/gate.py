@@ -9,8 +9,8 @@ from dataclasses import dataclass
 
 from gestureapp.robot import nx100
 from gestureapp.robot.nx100 import Request
-from gestureapp.robot.values import Direction, Pose, Refusal, RobotStatus, StopReason
-from gestureapp.robot.workspace import FieldOfOperation, Plan, plan
+from gestureapp.robot.values import Direction, Position, Refusal, RobotStatus, StopReason
+from gestureapp.robot.workspace import FieldOfOperation, Plan, find_outside, plan
 
 SPEED_CAP_MM_S = 250.0
 """Manual reduced speed of ISO 10218, as quoted by secondary sources; no site may go above."""
@@ -108,7 +108,7 @@ class GateView:
         is_moving: A command is open.
         last_activation_id: Of the newest command let through.
         status: Last RSTATS, read at ``status_s``.
-        pose: Last RPOSC, read at ``pose_s``.
+        position: Last RPOSC, read at ``position_s``.
         left_s: Receive time of the newest left sample.
         is_left_start: The left arm holds the start posture.
         is_left_stop: The left arm holds the stop posture.
@@ -124,8 +124,8 @@ class GateView:
     last_activation_id: int
     status: RobotStatus | None
     status_s: float
-    pose: Pose | None
-    pose_s: float
+    position: Position | None
+    position_s: float
     left_s: float
     is_left_start: bool
     is_left_stop: bool
@@ -200,12 +200,13 @@ def decide(proposal: Proposal, view: GateView, limits: Limits, now_s: float) -> 
         or _permission(proposal, view)
         or _freshness(proposal, view, limits, now_s)
         or robot_blocker(view.status)
+        or find_foreign_tool(view.position, limits.tool)
         or _left_arm(view, limits, now_s)
     )
     if refusal is not None:
         return refusal
-    assert view.pose is not None
-    planned = plan(view.pose, proposal.direction, limits.field)
+    assert view.position is not None
+    planned = plan(view.position, proposal.direction, limits.field)
     if isinstance(planned, Refusal):
         return planned
     asked = limits.speed_deg_s if proposal.direction.is_rotation else limits.speed_mm_s
@@ -231,13 +232,17 @@ def arm_blocker(
         return foreign
     if view.is_stopping or view.is_releasing or view.is_moving:
         return Refusal("busy", "a move or a stop is under way")
-    for t_s, text in ((view.status_s, "the robot's state"), (view.pose_s, "the robot's position")):
+    for t_s, text in (
+        (view.status_s, "the robot's state"),
+        (view.position_s, "the robot's position"),
+    ):
         age_s = now_s - t_s
         if not 0 <= age_s <= STATUS_MAX_AGE_S:
             asked, limit = f"{age_s:.2f} s", f"{STATUS_MAX_AGE_S:.2f} s"
             return Refusal("status_age", f"{text} is {asked} old, limit {limit}", asked, limit)
     refusal = robot_blocker(view.status, ignore_own_hold=ignore_own_hold)
     refusal = refusal or next(iter(view.hindrances), None)
+    refusal = refusal or _position_blocker(view.position, limits)
     return refusal or _left_silent(view, limits, now_s) or _left_not_stop(view)
 
 
@@ -266,6 +271,21 @@ def robot_blocker(status: RobotStatus | None, *, ignore_own_hold: bool = False) 
     return None
 
 
+def find_foreign_tool(position: Position | None, tool: int) -> Refusal | None:
+    """Why a position says nothing about our tool: it is the point of another one."""
+    if position is None or position.tool == tool:
+        return None
+    asked, limit = f"tool {position.tool}", f"tool {tool}"
+    text = f"the controller tells the position of {asked}, the settings have {limit}"
+    return Refusal("foreign_tool", f"{text}: select that tool on the pendant", asked, limit)
+
+
+def _position_blocker(position: Position | None, limits: Limits) -> Refusal | None:
+    if position is None:
+        return Refusal("pose_age", "the robot has not told its position yet")
+    return find_foreign_tool(position, limits.tool) or find_outside(position, limits.field)
+
+
 def _foreign_frame(limits: Limits) -> Refusal | None:
     """In a user frame neither the position nor the increment can be held against the field."""
     if limits.frame in ROBOT_FRAMES:
@@ -291,14 +311,14 @@ def _freshness(proposal: Proposal, view: GateView, limits: Limits, now_s: float)
     ages = (
         ("proposal", proposal.t_s, PROPOSAL_MAX_AGE_S, "the decision came too late"),
         ("status", view.status_s, STATUS_MAX_AGE_S, "the robot's state is too old"),
-        ("pose", view.pose_s, POSE_MAX_AGE_S, "the robot's position is too old"),
+        ("pose", view.position_s, POSE_MAX_AGE_S, "the robot's position is too old"),
     )
     for name, t_s, limit_s, text in ages:
         age_s = now_s - t_s
         if not 0 <= age_s <= limit_s:
             asked, limit = f"{age_s:.3f} s", f"{limit_s:.3f} s"
             return Refusal(f"{name}_age", f"{text}: {asked}, limit {limit}", asked, limit)
-    if view.pose is None:
+    if view.position is None:
         return Refusal("pose_age", "the robot has not told its position yet")
     return None
 

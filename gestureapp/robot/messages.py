@@ -7,6 +7,7 @@ is a value (``None``), never an exception.
 import dataclasses
 import json
 import math
+import types
 import typing
 from dataclasses import dataclass
 from enum import Enum
@@ -14,7 +15,7 @@ from typing import Any
 
 from gestureapp.robot.address import is_loopback
 from gestureapp.robot.gate import Limits
-from gestureapp.robot.values import Direction, Pose, PoseIncrement, Refusal, StopReason
+from gestureapp.robot.values import Direction, Pose, PoseIncrement, Position, Refusal, StopReason
 
 
 @dataclass(frozen=True, slots=True)
@@ -153,7 +154,7 @@ class PoseReport:
     """RPOSC, as read at ``t_s``."""
 
     t_s: float
-    pose: Pose
+    position: Position
 
 
 @dataclass(frozen=True, slots=True)
@@ -298,6 +299,8 @@ def _build(kind: Any, value: Any) -> Any:  # noqa: ANN401  the edge: anything ma
         return kind(**{name: _build(hints[name], value[name]) for name in hints})
     if isinstance(kind, type) and issubclass(kind, Enum):
         return kind(value)
+    if isinstance(kind, types.UnionType):  # of one kind and None: what may be absent
+        return None if value is None else _build(typing.get_args(kind)[0], value)
     if typing.get_origin(kind) is tuple:
         return _build_tuple(typing.get_args(kind), value)
     return _build_plain(kind, value)

@@ -10,13 +10,16 @@ import math
 import re
 from dataclasses import dataclass
 
-from gestureapp.robot.values import Pose, PoseIncrement, RobotStatus
+from gestureapp.robot.values import Pose, PoseIncrement, Position, Posture, RobotStatus
 
 CONNECT = b"CONNECT Robot_access Keep-Alive:-1\r\n"
 """One session for as many commands as we like: opening many exhausts the controller's sockets."""
 
 MAX_LINE = 512
 """Longer than any answer (14 fields of RPOSC with external axes are about 150 bytes)."""
+
+TOOL_MAX = 23
+TYPE_BITS = 0x3F
 
 _BANNER = re.compile(r"OK: \S{2} Information Server\b.*")
 _CODE = re.compile(r"\((\d{4})\)")
@@ -172,7 +175,7 @@ class Unreadable:
     expected: str
 
 
-Answer = Done | RobotStatus | Pose | Alarms | Failure | Unreadable
+Answer = Done | RobotStatus | Position | Alarms | Failure | Unreadable
 
 CODES = {
     1010: "command error",
@@ -231,11 +234,14 @@ def _parse_status(line: str) -> Answer:
     return RobotStatus(int(numbers[0]), int(numbers[1]))
 
 
-def _parse_pose(line: str) -> Answer:
+def _parse_position(line: str) -> Answer:
     numbers = _numbers(line, whole=False)
     if numbers is None or len(numbers) not in (8, 14) or any(abs(n) > 1e6 for n in numbers[:6]):
         return Unreadable(line, "x,y,z,rx,ry,rz,type,tool")
-    return Pose(*numbers[:6])
+    posture, tool = numbers[6:8]
+    if posture not in range(TYPE_BITS + 1) or tool not in range(TOOL_MAX + 1):
+        return Unreadable(line, f"type 0 to {TYPE_BITS} and tool 0 to {TOOL_MAX}")
+    return Position(Pose(*numbers[:6]), Posture(int(posture)), int(tool))
 
 
 def _parse_alarms(line: str) -> Answer:
@@ -246,7 +252,7 @@ def _parse_alarms(line: str) -> Answer:
     return Alarms(tuple(zip(whole[::2], whole[1::2], strict=True)))
 
 
-_PARSERS = {"RSTATS": _parse_status, "RPOSC": _parse_pose, "RALARM": _parse_alarms}
+_PARSERS = {"RSTATS": _parse_status, "RPOSC": _parse_position, "RALARM": _parse_alarms}
 
 
 def _numbers(line: str, *, whole: bool) -> list[float] | None:

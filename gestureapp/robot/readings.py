@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 from gestureapp.robot import messages as m
 from gestureapp.robot.stopping import is_same_place
-from gestureapp.robot.values import Pose, RobotStatus
+from gestureapp.robot.values import Position, RobotStatus
 
 
 @dataclass(slots=True)
@@ -15,15 +15,15 @@ class Readings:
         status: Last RSTATS, or None.
         status_s: When it came.
         alarms: Codes of the last RALARM, empty while the state tells of none.
-        pose: Last RPOSC, or None.
-        pose_s: When it came.
+        position: Last RPOSC, or None.
+        position_s: When it came.
     """
 
     status: RobotStatus | None = None
     status_s: float = float("-inf")
     alarms: tuple[int, ...] = ()
-    pose: Pose | None = None
-    pose_s: float = float("-inf")
+    position: Position | None = None
+    position_s: float = float("-inf")
 
     @property
     def is_held_by_command(self) -> bool:
@@ -42,10 +42,11 @@ class Readings:
         if not (status.has_alarm or status.has_error):
             self.alarms = ()
 
-    def take_pose(self, pose: Pose, now_s: float) -> bool:
+    def take_position(self, position: Position, now_s: float) -> bool:
         """Another position has come; whether it is another place than the one before."""
-        has_moved = self.pose is not None and not is_same_place(self.pose, pose)
-        self.pose, self.pose_s = pose, now_s
+        before = self.position
+        has_moved = before is not None and not is_same_place(before.pose, position.pose)
+        self.position, self.position_s = position, now_s
         return has_moved
 
     def report(self, now_s: float) -> m.StatusReport | None:

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 from gestureapp.robot import nx100
 from gestureapp.robot.nx100 import Answer, Done, Failure, Request
-from gestureapp.robot.values import Pose, RobotStatus, StopReason
+from gestureapp.robot.values import Pose, Position, RobotStatus, StopReason
 
 REPEAT_S = 0.25
 """HOLD is sent again this often while the robot is not known to stand."""
@@ -131,8 +131,8 @@ class StopPath:
                 self._seen.refusal = answer.words
         elif isinstance(answer, RobotStatus):
             self._note_status(answer, now_s)
-        elif isinstance(answer, Pose):
-            self._note_pose(answer, now_s)
+        elif isinstance(answer, Position):
+            self._note_pose(answer.pose, now_s)
 
     def link_broken(self) -> None:
         """The line was lost: HOLD is the first request on the next one, and nothing is known."""

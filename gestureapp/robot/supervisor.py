@@ -26,7 +26,7 @@ from gestureapp.robot.polling import Pace, Polling
 from gestureapp.robot.readings import Readings
 from gestureapp.robot.release import Release
 from gestureapp.robot.stopping import Standstill, StopPath
-from gestureapp.robot.values import Pose, Refusal, RobotStatus, StopReason
+from gestureapp.robot.values import Position, Refusal, RobotStatus, StopReason
 from gestureapp.robot.watchdog import Cause, find_change
 
 
@@ -228,8 +228,8 @@ class Supervisor:
             last_activation_id=self._commands.last_activation_id,
             status=self._read.status,
             status_s=self._read.status_s,
-            pose=self._read.pose,
-            pose_s=self._read.pose_s,
+            position=self._read.position,
+            position_s=self._read.position_s,
             left_s=self._beats.left_s,
             is_left_start=self._beats.is_left_start,
             is_left_stop=self._beats.is_left_stop,
@@ -303,8 +303,8 @@ class Supervisor:
         match event.answer:
             case RobotStatus():
                 self._take_status(event.answer, now_s)
-            case Pose():
-                self._take_pose(event.answer, now_s)
+            case Position():
+                self._take_position(event.answer, now_s)
             case Alarms():
                 self._read.alarms = event.answer.codes
                 self._out.tell(self._read.report(now_s))
@@ -345,12 +345,12 @@ class Supervisor:
             self._leftover.went_on()
         self._stop_for(change, now_s)
 
-    def _take_pose(self, pose: Pose, now_s: float) -> None:
-        if self._read.take_pose(pose, now_s) and not self.has_commanded:
+    def _take_position(self, position: Position, now_s: float) -> None:
+        if self._read.take_position(position, now_s) and not self.has_commanded:
             self._polling.want_status()
-        self._out.tell(m.PoseReport(now_s, pose))
+        self._out.tell(m.PoseReport(now_s, position))
         if self._commands.motion is not None:
-            self._commands.motion.note_pose(pose, self._sent_s)
+            self._commands.motion.note_pose(position.pose, self._sent_s)
 
     def _link_broken(self, event: LinkBroken, now_s: float) -> None:
         may_resume = self._release.may_resume(now_s)

@@ -144,6 +144,58 @@ class RobotStatus:
         return bool(self.data_2 & 0x40)
 
 
+@dataclass(frozen=True, slots=True)
+class Posture:
+    """How the arm holds a pose: RPOSC's Type. Source: NX100 data transmission manual, p. 76."""
+
+    bits: int
+
+    @property
+    def is_flip(self) -> bool:
+        """The wrist is flipped: R is more than a right angle from zero."""
+        return not self.bits & 0x01
+
+    @property
+    def is_lower_arm(self) -> bool:
+        """The elbow lies below the line from shoulder to wrist."""
+        return bool(self.bits & 0x02)
+
+    @property
+    def is_back(self) -> bool:
+        """The wrist lies behind the S axis."""
+        return bool(self.bits & 0x04)
+
+    @property
+    def is_r_beyond(self) -> bool:
+        """R is 180 degrees or more, either way."""
+        return bool(self.bits & 0x08)
+
+    @property
+    def is_t_beyond(self) -> bool:
+        """T is 180 degrees or more, either way."""
+        return bool(self.bits & 0x10)
+
+    @property
+    def is_s_beyond(self) -> bool:
+        """S is 180 degrees or more, either way."""
+        return bool(self.bits & 0x20)
+
+
+@dataclass(frozen=True, slots=True)
+class Position:
+    """Where the robot says its tool is: RPOSC.
+
+    Attributes:
+        pose: Of the tool centre point.
+        posture: How the arm holds it.
+        tool: Number of the tool whose point that is.
+    """
+
+    pose: Pose
+    posture: Posture
+    tool: int
+
+
 class StopReason(Enum):
     """Why the robot was stopped. All but the left arm's own stop are latched."""
 

@@ -1,16 +1,25 @@
-"""The field of operation: from a pose and a direction to the one increment, or a refusal. Pure.
+"""The field of operation: from a position and a direction to one increment, or a refusal. Pure.
 
-The field is what lies between two spheres around the robot frame's origin (paper, equation 1). The
-increment runs along the ray of equation 2 up to a margin short of the first boundary it meets
-(equations 3 and 4). Rotations run to the end of the axis' range.
+The field is what lies between two spheres around the robot frame's origin (paper, equation 1),
+above the floor, below the ceiling, and outside the column and the keep-outs. The increment runs
+along the ray of equation 2 up to a margin short of the first boundary it meets (equations 3 and 4).
+Rotations run to the end of the axis' range. Both end earlier where the arm can go no farther.
 """
 
+import functools
 import math
+from collections.abc import Iterator
 from dataclasses import dataclass
 
-from gestureapp.robot.values import Direction, Pose, PoseIncrement, Refusal
-
-Vector = tuple[float, float, float]
+from gestureapp.robot.arm import ArmLimits, find_arm_limit, reach_along
+from gestureapp.robot.obstacles import (
+    Column,
+    KeepOut,
+    Vector,
+    plane_distance,
+    sphere_crossings,
+)
+from gestureapp.robot.values import Direction, Pose, PoseIncrement, Position, Refusal
 
 EDGE_MM = 0.001
 """A start this close to a sphere stands on its edge: RPOSC gives three decimals."""
@@ -20,6 +29,8 @@ MIN_LENGTH_MM = 1.0
 """Shorter increments are refused: they would only twitch."""
 MIN_LENGTH_DEG = 0.5
 """The same for rotations."""
+
+MAX_KEEP_OUTS = 8
 
 AXES = ("X", "Y", "Z")
 
@@ -31,13 +42,18 @@ class FieldOfOperation:
     Attributes:
         ext_radius_mm: Outer sphere.
         int_radius_mm: Inner sphere.
-        margin_mm: How far before a sphere, along the ray, an increment ends.
+        margin_mm: How far before a boundary, along the ray, an increment ends.
         ranges_deg: Lowest and highest rx, ry, rz. A range may pass 180, as Rx does for a tool that
             points down; angles are taken to the turn that lies nearest to the middle of the range.
         margin_deg: How far before the end of a range a rotation ends.
+        floor_mm: Lowest z; minus infinity for none.
+        ceiling_mm: Highest z; infinity for none.
+        column: The robot's own body, or None.
+        keep_outs: Up to eight boxes.
+        arm: What the joints may do; None when they are not looked at.
 
     Raises:
-        ValueError: radii, margins or ranges are not in order.
+        ValueError: radii, margins, ranges or heights are not in order, or there are too many boxes.
     """
 
     ext_radius_mm: float
@@ -45,6 +61,11 @@ class FieldOfOperation:
     margin_mm: float
     ranges_deg: tuple[tuple[float, float], tuple[float, float], tuple[float, float]]
     margin_deg: float
+    floor_mm: float = -math.inf
+    ceiling_mm: float = math.inf
+    column: Column | None = None
+    keep_outs: tuple[KeepOut, ...] = ()
+    arm: ArmLimits | None = None
 
     def __post_init__(self) -> None:
         if not 0 <= self.int_radius_mm < self.ext_radius_mm < math.inf:
@@ -53,6 +74,15 @@ class FieldOfOperation:
             raise ValueError("margins must be above zero")
         if not all(0 < high - low < 360 for low, high in self.ranges_deg):
             raise ValueError("a range of angles must be wider than 0 and less than a turn")
+        if not self.floor_mm < self.ceiling_mm:
+            raise ValueError("the floor must be below the ceiling")
+        if len(self.keep_outs) > MAX_KEEP_OUTS:
+            raise ValueError(f"there may be {MAX_KEEP_OUTS} keep-outs at most")
+
+    @property
+    def obstacles(self) -> tuple[Column | KeepOut, ...]:
+        """The bodies in it."""
+        return self.keep_outs if self.column is None else (self.column, *self.keep_outs)
 
 
 @dataclass(frozen=True, slots=True)
@@ -82,36 +112,21 @@ class Plan:
         )
 
 
-def plan(pose: Pose, direction: Direction, field: FieldOfOperation) -> Plan | Refusal:
-    """The increment from a pose in a direction, as far as the field allows, or a refusal."""
+@functools.lru_cache(maxsize=64)
+def plan(position: Position, direction: Direction, field: FieldOfOperation) -> Plan | Refusal:
+    """The increment from a position in a direction, as far as field and arm allow, or a refusal.
+
+    Remembered: the gate asks again for the same one immediately before it is sent.
+    """
+    pose = position.pose
     if not all(math.isfinite(v) for v in (*pose.position_mm, *pose.rotation_deg)):
         return Refusal("bad_pose", "the robot's position is not a number")
-    outside = find_outside(pose, field)
+    outside = find_outside(position, field)
     if outside is not None:
         return outside
-    if direction.is_rotation:
-        return _plan_rotation(pose, direction, field)
-    return _plan_translation(pose, direction, field)
-
-
-def sphere_crossings(start: Vector, unit: Vector, radius: float) -> tuple[float, float] | None:
-    """Where a line crosses a sphere around the origin (paper, equation 3).
-
-    Args:
-        start: Point on the line, mm.
-        unit: Direction, length 1.
-        radius: Of the sphere, mm.
-
-    Returns:
-        Both distances along ``unit``, smaller first; None when the line misses the sphere.
-    """
-    along = sum(s * u for s, u in zip(start, unit, strict=True))
-    off_line = sum((s - along * u) ** 2 for s, u in zip(start, unit, strict=True))
-    half_squared = radius * radius - off_line
-    if half_squared < 0:
-        return None
-    half = math.sqrt(half_squared)
-    return -along - half, -along + half
+    room = _turning_room if direction.is_rotation else _room
+    found = room(pose, direction, field)
+    return found if isinstance(found, Refusal) else _planned(position, direction, field, found)
 
 
 def nearest_turn(angle_deg: float, range_deg: tuple[float, float]) -> float:
@@ -120,9 +135,26 @@ def nearest_turn(angle_deg: float, range_deg: tuple[float, float]) -> float:
     return middle + math.remainder(angle_deg - middle, 360.0)
 
 
-def find_outside(pose: Pose, field: FieldOfOperation) -> Refusal | None:
-    """Why no increment may start here: outside the spheres, or on the edge of one."""
-    distance = math.hypot(*pose.position_mm)
+def find_outside(position: Position, field: FieldOfOperation) -> Refusal | None:
+    """Why no increment may start here: outside the field, on its edge, beyond an arm's limit."""
+    at = position.pose.position_mm
+    for refusal in (_outside_spheres(at, field), _outside_planes(at, field), _inside(at, field)):
+        if refusal is not None:
+            return refusal
+    return None if field.arm is None else find_arm_limit(position, field.arm)
+
+
+@dataclass(frozen=True, slots=True)
+class _Room:
+    """How far the field lets the tool go, the margin taken off, what comes then, and too little."""
+
+    length: float
+    limited_by: str
+    refusal: Refusal
+
+
+def _outside_spheres(at: Vector, field: FieldOfOperation) -> Refusal | None:
+    distance = math.hypot(*at)
     limit = f"{field.int_radius_mm:.0f} to {field.ext_radius_mm:.0f} mm from the robot's origin"
     asked = f"{distance:.1f} mm"
     if distance >= field.ext_radius_mm + EDGE_MM or distance <= field.int_radius_mm - EDGE_MM:
@@ -134,39 +166,94 @@ def find_outside(pose: Pose, field: FieldOfOperation) -> Refusal | None:
     return None
 
 
-def _plan_translation(pose: Pose, direction: Direction, field: FieldOfOperation) -> Plan | Refusal:
-    start, unit = pose.position_mm, direction.unit
+def _outside_planes(at: Vector, field: FieldOfOperation) -> Refusal | None:
+    for room, name, limit_mm, word in (
+        (at[2] - field.floor_mm, "floor", field.floor_mm, "below"),
+        (field.ceiling_mm - at[2], "ceiling", field.ceiling_mm, "above"),
+    ):
+        if room < EDGE_MM:
+            asked, limit = f"z {at[2]:.1f} mm", f"{name} at z {limit_mm:.1f} mm"
+            is_on_edge = room > -EDGE_MM
+            text = f"the tool stands {'on' if is_on_edge else word} the {limit}, at {asked}"
+            return Refusal("on_edge" if is_on_edge else "outside_field", text, asked, limit)
+    return None
+
+
+def _inside(at: Vector, field: FieldOfOperation) -> Refusal | None:
+    asked = "x {:.1f}, y {:.1f}, z {:.1f} mm".format(*at)
+    for body in field.obstacles:
+        if body.holds(at, -EDGE_MM):
+            text = f"the tool stands inside the {body.name}, at {asked}"
+            return Refusal("outside_field", text, asked, body.name)
+        if body.holds(at, EDGE_MM):
+            text = f"the tool stands on the edge of the {body.name}, at {asked}"
+            return Refusal("on_edge", text, asked, body.name)
+    return None
+
+
+def _boundaries(
+    start: Vector, unit: Vector, field: FieldOfOperation
+) -> Iterator[tuple[float, str]]:
+    """Every boundary and how far along the ray it is met."""
     outer = sphere_crossings(start, unit, field.ext_radius_mm)
     inner = sphere_crossings(start, unit, field.int_radius_mm)
     # A start inside the outer sphere always has one crossing ahead of it.
-    reach, limited_by = (outer[1] if outer else 0.0), "outer sphere"
-    if inner is not None and 0 <= inner[0] < reach:
-        reach, limited_by = inner[0], "inner sphere"
-    length = _towards_zero(reach - field.margin_mm, 3)
-    name = f"{AXES[direction.axis]}{'+' if direction.sign > 0 else '-'}"
-    if length < MIN_LENGTH_MM:
-        asked, limit = f"{reach:.1f} mm", f"{field.margin_mm:.1f} mm margin"
-        text = f"no room along {name}: {asked} to the {limited_by}, {limit}"
-        return Refusal("at_limit", text, asked, limit)
-    dx, dy, dz = (u * length + 0.0 for u in unit)
-    return Plan(pose, PoseIncrement(dx, dy, dz), length, limited_by)
+    yield (outer[1] if outer else 0.0), "outer sphere"
+    if inner is not None and inner[0] >= 0:
+        yield inner[0], "inner sphere"
+    yield plane_distance(start, unit, field.floor_mm), "floor"
+    yield plane_distance(start, unit, field.ceiling_mm), "ceiling"
+    for body in field.obstacles:
+        yield body.distance(start, unit), body.name
 
 
-def _plan_rotation(pose: Pose, direction: Direction, field: FieldOfOperation) -> Plan | Refusal:
+def _room(pose: Pose, direction: Direction, field: FieldOfOperation) -> _Room:
+    boundaries = _boundaries(pose.position_mm, direction.unit, field)
+    reach, limited_by = min(boundaries, key=lambda boundary: boundary[0])
+    asked, limit = f"{reach:.1f} mm", f"{field.margin_mm:.1f} mm margin"
+    text = f"no room along {_name(direction)}: {asked} to the {limited_by}, {limit}"
+    refusal = Refusal("at_limit", text, asked, limit)
+    return _Room(reach - field.margin_mm, limited_by, refusal)
+
+
+def _turning_room(pose: Pose, direction: Direction, field: FieldOfOperation) -> _Room | Refusal:
     low, high = range_deg = field.ranges_deg[direction.axis]
     name = f"R{AXES[direction.axis].lower()}"
     angle = nearest_turn(pose.rotation_deg[direction.axis], range_deg)
     asked, limit = f"{name} {angle:.2f} deg", f"{low:.1f} to {high:.1f} deg"
     if angle < low - EDGE_DEG or angle > high + EDGE_DEG:
         return Refusal("outside_field", f"{asked} is outside its range of {limit}", asked, limit)
-    end = high if direction.sign > 0 else low
-    length = _towards_zero(abs(end - angle) - field.margin_deg, 2)
-    if (end - angle) * direction.sign <= 0 or length < MIN_LENGTH_DEG:
-        text = f"no room to turn: {asked}, range {limit}, margin {field.margin_deg:.1f} deg"
-        return Refusal("at_limit", text, asked, limit)
-    drx, dry, drz = (u * length + 0.0 for u in direction.unit)
-    increment = PoseIncrement(drx_deg=drx, dry_deg=dry, drz_deg=drz)
-    return Plan(pose, increment, length, f"range of {name}")
+    left = (high - angle) if direction.sign > 0 else (angle - low)
+    text = f"no room to turn: {asked}, range {limit}, margin {field.margin_deg:.1f} deg"
+    refusal = Refusal("at_limit", text, asked, limit)
+    return _Room(left - field.margin_deg, f"range of {name}", refusal)
+
+
+def _planned(
+    position: Position, direction: Direction, field: FieldOfOperation, room: _Room
+) -> Plan | Refusal:
+    """The increment as far as there is room and the arm can follow."""
+    is_rotation = direction.is_rotation
+    least, places = (MIN_LENGTH_DEG, 2) if is_rotation else (MIN_LENGTH_MM, 3)
+    length, limited_by = _towards_zero(room.length, places), room.limited_by
+    if length < least:
+        return room.refusal
+    if field.arm is not None:
+        reach = reach_along(position, direction, length, field.arm)
+        length = _towards_zero(reach.length, places)
+        limited_by = reach.limited_by or limited_by
+    if length < least:
+        text = f"no room for {_name(direction)}: {limited_by}"
+        return Refusal("at_limit", text, f"{length} {'deg' if is_rotation else 'mm'}", limited_by)
+    change: Vector = tuple(part * length + 0.0 for part in direction.unit)  # type: ignore[assignment]
+    none = (0.0, 0.0, 0.0)
+    increment = PoseIncrement(*none, *change) if is_rotation else PoseIncrement(*change)
+    return Plan(position.pose, increment, length, limited_by)
+
+
+def _name(direction: Direction) -> str:
+    turn = "R" if direction.is_rotation else ""
+    return f"{turn}{AXES[direction.axis]}{'+' if direction.sign > 0 else '-'}"
 
 
 def _towards_zero(value: float, places: int) -> float:

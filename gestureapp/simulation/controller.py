@@ -8,7 +8,9 @@ choice.
 import math
 from dataclasses import dataclass, replace
 
+from gestureapp.robot import hp6
 from gestureapp.robot.values import Pose
+from gestureapp.simulation.nx100_arm import Arm, Travel
 from gestureapp.simulation.nx100_motion import Path, Profile, into_frame, normal, trapezoid
 from gestureapp.simulation.nx100_values import (
     ALARM_BIT,
@@ -37,12 +39,11 @@ _NOTHING_LEFT = 1e-9
 
 @dataclass(frozen=True, slots=True)
 class _Motion:
-    """A move under way; rates in fractions of its path, ``limit`` the fraction at the reach."""
+    """A move under way; rates in fractions of its path."""
 
-    path: Path
+    travel: Travel
     rate: float
     accel: float
-    limit: float
     profile: Profile
     limit_s: float = math.inf
     has_started: bool = False
@@ -51,6 +52,14 @@ class _Motion:
     @property
     def end_s(self) -> float:
         return min(self.profile.end_s, self.limit_s)
+
+    @property
+    def path(self) -> Path:
+        return self.travel.path
+
+    @property
+    def limit(self) -> float:
+        return self.travel.limit
 
     def with_profile(self, profile: Profile, reason: EndReason) -> "_Motion":
         limit_s = profile.time_of(self.limit) if self.limit <= profile.final else math.inf
@@ -88,7 +97,9 @@ class Controller:
         self.alarms: list[tuple[int, int]] = []
         self.error: tuple[int, int] | None = None
         self.inputs: dict[int, int] = {}
+        self._arm = Arm(options.tool_mm, options.joint_ranges_deg)
         self._pose = normal(options.start_pose)
+        self._joints = hp6.joints_deg(self._pose, options.tool_mm, options.start_posture)
         self._motion: _Motion | None = None
         self._rest: _Rest | None = None
         self._servo_on_s = math.inf
@@ -126,6 +137,13 @@ class Controller:
         if self._motion is None:
             return self._pose
         return normal(self._motion.path.pose_at(self._motion.profile.fraction_at(now_s)))
+
+    def joints(self, now_s: float) -> hp6.Joints:
+        """Give S, L, U, R, B, T in degrees."""
+        self.advance(now_s)
+        if self._motion is None:
+            return self._joints
+        return self._motion.travel.joints_at(self._motion.profile.fraction_at(now_s))
 
     def pose_in(self, frame: int, now_s: float) -> Pose | Code:
         """Give the tool pose in frame 0 (base), 1 (robot) or 2 to 25 (user 1 to 24)."""
@@ -173,9 +191,9 @@ class Controller:
         if not (any(move.increment.translation_mm) or move.increment.is_rotation):
             return Code.OK
         rate, accel = self._rates(move)
-        limit = path.limit(self.options.reach_mm, self.options.tool_mm)
+        travel = Travel.of(path, self._arm, self._joints)
         profile = trapezoid(now_s + self.options.start_delay_s, 0.0, rate, accel)
-        motion = _Motion(path, rate, accel, limit, profile)
+        motion = _Motion(travel, rate, accel, profile)
         self._motion = motion.with_profile(profile, EndReason.DONE)
         return Code.OK
 
@@ -273,6 +291,7 @@ class Controller:
         if self._motion is not None:
             return False
         self._pose, self._rest = normal(pose), None
+        self._joints = self._arm.joints_at(self._pose, self._joints)
         return True
 
     def raise_alarm(self, code: int, data: int, now_s: float) -> None:
@@ -361,6 +380,7 @@ class Controller:
         if reason is EndReason.HOLD:
             self._rest = _Rest(motion, reached)
         self._pose = normal(motion.path.pose_at(reached))
+        self._joints = motion.travel.joints_at(reached)
         if motion.has_started:
             self._events.append(MotionEnded(now_s, self._pose, reason))
         if reason is EndReason.HOLD and not self.holds:

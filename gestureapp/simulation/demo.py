@@ -109,7 +109,8 @@ class DemoCell:
     def settings(self, base: Settings | None = None) -> Settings:
         """The settings of a cell that works on these emulators; the site's are kept from ``base``.
 
-        The robot's field, speeds and frame are kept as well; its address is this machine's.
+        The robot's field, speeds and frame are kept as well; its address is this machine's, and the
+        emulated arm has no tool.
         """
         base = Settings() if base is None else base
         return replace(
@@ -168,4 +169,4 @@ class DemoCell:
 
 
 def _at(robot: RobotSettings, port: int) -> RobotSettings:
-    return replace(robot, host=HOST, port=port)
+    return replace(robot, host=HOST, port=port, tool=0, tool_mm=(0.0, 0.0, 0.0))

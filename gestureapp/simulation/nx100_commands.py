@@ -8,11 +8,12 @@ import re
 from collections.abc import Callable
 from dataclasses import dataclass
 
+from gestureapp.robot import hp6
 from gestureapp.robot.values import Pose, PoseIncrement
-from gestureapp.simulation import hp6
 from gestureapp.simulation.controller import Controller
 from gestureapp.simulation.nx100_lines import Request
 from gestureapp.simulation.nx100_values import CONTACTS, Code, Move
+from gestureapp.simulation.pulses import pulses
 
 IMOV_FIELDS = 17
 OPERAND_MAX_CHARS = 32
@@ -95,7 +96,7 @@ def _ralarm(operands: list[str], controller: Controller, now_s: float) -> Code |
 def _rposj(operands: list[str], controller: Controller, now_s: float) -> Code | str:
     if operands:
         return Code.OPERAND_COUNT
-    axes = hp6.pulses(controller.pose(now_s), controller.options.tool_mm)
+    axes = pulses(controller.joints(now_s))
     return ",".join(str(pulse) for pulse in (*axes, 0, 0, 0, 0, 0, 0))
 
 
@@ -108,8 +109,9 @@ def _rposc(operands: list[str], controller: Controller, now_s: float) -> Code | 
     pose = controller.pose_in(numbers[0], now_s)
     if isinstance(pose, Code):
         return pose
-    joints = hp6.joints_deg(controller.pose(now_s), controller.options.tool_mm)
-    return _pose_line(pose, joints) + (",0,0,0,0,0,0" if numbers[1] else "")
+    posture = hp6.posture_of(controller.joints(now_s))
+    held = f"{posture.bits},{controller.options.tool}"
+    return f"{_pose_text(pose)},{held}" + (",0,0,0,0,0,0" if numbers[1] else "")
 
 
 def _svon(operands: list[str], controller: Controller, now_s: float) -> Code | str:
@@ -238,15 +240,7 @@ def _is_in_range(
     )
 
 
-def _pose_line(pose: Pose, joints: hp6.Joints) -> str:
+def _pose_text(pose: Pose) -> str:
     position = ",".join(f"{round(part, 3) + 0.0:.3f}" for part in pose.position_mm)
     turned = ",".join(f"{round(part, 2) + 0.0:.2f}" for part in pose.rotation_deg)
-    return f"{position},{turned},{_posture(joints)},0"
-
-
-def _posture(joints: hp6.Joints) -> int:
-    """Give Type: the arm is in front, its elbow up, no axis beyond 180 degrees; so only no-flip.
-
-    Source: the Type bits of the NX100 data transmission manual, p. 76.
-    """
-    return 1 if abs(joints[3]) <= 90.0 else 0
+    return f"{position},{turned}"

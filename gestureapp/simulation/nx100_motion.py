@@ -7,11 +7,8 @@ gives the fraction as an exact function of the time.
 import math
 from dataclasses import dataclass
 
+from gestureapp.robot import hp6
 from gestureapp.robot.values import Pose, PoseIncrement
-from gestureapp.simulation import hp6
-
-_LIMIT_SLACK_MM = 1e-6
-"""So that a robot standing exactly on its limit can still move back from it."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -143,34 +140,6 @@ class Path:
             self.start.rz_deg + fraction * step.drz_deg,
         )
         return here if self.frame is None else from_frame(self.frame, here)
-
-    def limit(self, reach_mm: float, tool_mm: hp6.Vector) -> float:
-        """Give the fraction at which the wrist leaves the reach; infinity when it does not.
-
-        Note:
-            A robot that stands outside already may move as long as it does not get farther away.
-        """
-        allowed = max(reach_mm, self._reach_mm(0.0, tool_mm)) + _LIMIT_SLACK_MM
-        turn_deg = sum(abs(angle) for angle in self.increment.rotation_deg)
-        n = 16 + math.ceil(turn_deg)
-        for i in range(n):
-            if self._reach_mm((i + 1) / n, tool_mm) > allowed:
-                return self._crossing(i / n, (i + 1) / n, allowed, tool_mm)
-        return math.inf
-
-    def _reach_mm(self, fraction: float, tool_mm: hp6.Vector) -> float:
-        return math.hypot(*hp6.wrist_mm(self.pose_at(fraction), tool_mm))
-
-    def _crossing(
-        self, inside: float, outside: float, allowed_mm: float, tool_mm: hp6.Vector
-    ) -> float:
-        for _ in range(60):
-            middle = 0.5 * (inside + outside)
-            if self._reach_mm(middle, tool_mm) > allowed_mm:
-                outside = middle
-            else:
-                inside = middle
-        return inside
 
 
 def from_frame(frame: Pose, pose: Pose) -> Pose:

@@ -4,13 +4,14 @@ import argparse
 import sys
 import threading
 import tomllib
-from dataclasses import fields, replace
+from dataclasses import replace
 from pathlib import Path
 from typing import TextIO
 
 from gestureapp.errors import ConfigError, GestureAppError
 from gestureapp.robot.values import Pose
 from gestureapp.simulation.nx100 import Nx100Emulator
+from gestureapp.simulation.nx100_commands import TOOL_MAX
 from gestureapp.simulation.nx100_control import fault_of
 from gestureapp.simulation.nx100_options import Nx100Options, ScriptedFault, Second, Segments
 from gestureapp.simulation.nx100_values import ControllerOptions
@@ -74,6 +75,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add("--script", type=Path, metavar="FILE", help="faults at given times, TOML")
     add("--exit-with-stdin", action="store_true", help="end when standard input is closed")
     add("--pose", type=_pose, default=cell.start_pose, metavar="X,Y,Z,RX,RY,RZ", help="at start")
+    add("--tool", type=_tool, default=cell.tool, metavar="N", help="tool selected (%(default)s)")
+    add("--tool-mm", type=_offset, default=cell.tool_mm, metavar="X,Y,Z", help="its point")
     add("--resume-after-hold", action="store_true", help="HOLD 0 goes on with the move")
     add("--accel-mm-s2", type=float, default=cell.accel_mm_s2, metavar="A")
     add("--accel-deg-s2", type=float, default=cell.accel_deg_s2, metavar="A")
@@ -101,6 +104,8 @@ def options_of(arguments: argparse.Namespace) -> Nx100Options:
     cell = replace(
         ControllerOptions(),
         start_pose=arguments.pose,
+        tool=arguments.tool,
+        tool_mm=arguments.tool_mm,
         start_delay_s=arguments.start_delay_ms / 1000.0,
         accel_mm_s2=arguments.accel_mm_s2,
         accel_deg_s2=arguments.accel_deg_s2,
@@ -173,16 +178,32 @@ def _check(arguments: argparse.Namespace) -> None:
 
 
 def _pose(text: str) -> Pose:
-    words = text.split(",")
-    if len(words) != len(fields(Pose)):
-        raise argparse.ArgumentTypeError("six numbers with commas are wanted: X,Y,Z,RX,RY,RZ")
+    x, y, z, rx, ry, rz = _numbers(text, "X,Y,Z,RX,RY,RZ")
+    return Pose(x, y, z, rx, ry, rz)
+
+
+def _offset(text: str) -> tuple[float, float, float]:
+    x, y, z = _numbers(text, "X,Y,Z")
+    return (x, y, z)
+
+
+def _tool(text: str) -> int:
+    if not text.isdecimal() or int(text) > TOOL_MAX:
+        raise argparse.ArgumentTypeError(f"a whole number from 0 to {TOOL_MAX} is wanted")
+    return int(text)
+
+
+def _numbers(text: str, form: str) -> list[float]:
+    words, n = text.split(","), form.count(",") + 1
+    if len(words) != n:
+        raise argparse.ArgumentTypeError(f"{n} numbers with commas are wanted: {form}")
     try:
-        x, y, z, rx, ry, rz = (float(word) for word in words)
+        numbers = [float(word) for word in words]
     except ValueError as error:
         raise argparse.ArgumentTypeError(str(error)) from error
-    if not all(abs(value) < 1e4 for value in (x, y, z, rx, ry, rz)):
+    if not all(abs(value) < 1e4 for value in numbers):
         raise argparse.ArgumentTypeError("mm and degrees below 10000 are wanted")
-    return Pose(x, y, z, rx, ry, rz)
+    return numbers
 
 
 if __name__ == "__main__":

@@ -4,8 +4,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from enum import Enum, IntEnum, IntFlag
 
-from gestureapp.robot.values import Pose, PoseIncrement
-from gestureapp.simulation import hp6
+from gestureapp.robot.hp6 import NO_FLIP
+from gestureapp.robot.values import Pose, PoseIncrement, Posture
 
 
 class Code(IntEnum):
@@ -65,6 +65,15 @@ CONTACTS = range(22010, 23288)
 MAX_ALARMS = 4
 START_POSE = Pose(800.0, 0.0, 300.0, 180.0, 0.0, 0.0)
 """In front of the robot, the tool pointing down."""
+JOINT_RANGES_DEG = (
+    (-170.0, 170.0),
+    (-90.0, 155.0),
+    (-100.0, 120.0),
+    (-180.0, 180.0),
+    (-135.0, 135.0),
+    (-360.0, 360.0),
+)
+"""The published ranges; U is our own, as it is published against the horizontal only."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -73,12 +82,14 @@ class ControllerOptions:
 
     Attributes:
         start_pose: Tool pose at power-on, robot frame.
+        start_posture: How the arm holds it.
         start_delay_s: From accepting a move to the running bit.
         accel_mm_s2: Acceleration of the tool point, both ways.
         accel_deg_s2: Acceleration of the wrist, both ways.
         max_speed_mm_s: What the arm can do when the command limits the rotation only.
         max_speed_deg_s: What the wrist can do when the command limits the tool point only.
-        reach_mm: Farthest wrist centre; leaving it is an alarm.
+        joint_ranges_deg: Lowest and highest S, L, U, R, B, T; leaving one is an alarm.
+        tool: Number of the tool selected.
         tool_mm: Tool centre point seen from the flange, for all tools.
         resumes_after_hold: Releasing a hold goes on with the rest of the move. Documented nowhere.
         servo_on_delay_s: How long SVON 1 takes.
@@ -88,12 +99,14 @@ class ControllerOptions:
     """
 
     start_pose: Pose = START_POSE
+    start_posture: Posture = NO_FLIP
     start_delay_s: float = 0.004
     accel_mm_s2: float = 1000.0
     accel_deg_s2: float = 400.0
     max_speed_mm_s: float = 1500.0
     max_speed_deg_s: float = 180.0
-    reach_mm: float = hp6.REACH_MM
+    joint_ranges_deg: tuple[tuple[float, float], ...] = JOINT_RANGES_DEG
+    tool: int = 0
     tool_mm: tuple[float, float, float] = (0.0, 0.0, 0.0)
     resumes_after_hold: bool = False
     servo_on_delay_s: float = 0.0

@@ -19,7 +19,7 @@ from gestureapp.errors import GuardianLost
 from gestureapp.recognition.model_file import load_model
 from gestureapp.recognition.paper import PaperRecogniser
 from gestureapp.robot import messages as m
-from gestureapp.robot.values import Pose, PoseIncrement, StopReason
+from gestureapp.robot.values import Pose, PoseIncrement, Position, Posture, StopReason
 from gestureapp.sensing.values import ArmPosture, Connected, Sample, Side
 from gestureapp.simulation.arm import LeftArm, RightArm, start_seen_after_s
 from gestureapp.simulation.demo import MODEL
@@ -108,7 +108,7 @@ class ScriptedGuardian:
         if round(now_s / TICK_S) % 10 == 0:
             running = 0x08 if self.moving_id is not None else 0
             said.append(m.StatusReport(now_s, REMOTE_PLAY | running, SERVO_ON, ()))
-            said.append(m.PoseReport(now_s, START_POSE))
+            said.append(m.PoseReport(now_s, Position(START_POSE, Posture(1), 0)))
         return said
 
     def of(self, kind: type[m.ToGuardian]) -> list[m.ToGuardian]:
@@ -168,7 +168,7 @@ class Desk:
         self._due_s = {Side.LEFT: self.now_s, Side.RIGHT: self.now_s + 0.005}
         self.control = Control(
             settings=self.settings,
-            field=field_of(self.settings.robot),
+            field=field_of(self.settings),
             recogniser=PaperRecogniser(load_model(MODEL)),
             model="demo",
             model_problem="",

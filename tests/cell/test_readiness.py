@@ -8,7 +8,7 @@ from gestureapp.cell.engine import field_of
 from gestureapp.cell.readiness import Facts, find_blockers
 from gestureapp.config import Settings
 from gestureapp.robot.gate import STATUS_MAX_AGE_S
-from gestureapp.robot.values import Pose, Refusal, RobotStatus
+from gestureapp.robot.values import Pose, Position, Posture, Refusal, RobotStatus
 from gestureapp.sensing.values import LinkState, Side, StreamHealth
 
 REMOTE_PLAY, SERVO = 0xC0, 0x40
@@ -31,6 +31,7 @@ def healthy(side: Side) -> StreamHealth:
     )
 
 
+HOME = Position(Pose(800.0, 0.0, 300.0, 180.0, 0.0, 0.0), Posture(1), 0)
 READY = Facts(
     left=healthy(Side.LEFT),
     right=healthy(Side.RIGHT),
@@ -41,9 +42,10 @@ READY = Facts(
     link_text="OK: NX Information Server",
     status=RobotStatus(REMOTE_PLAY, SERVO),
     status_age_s=0.1,
-    pose=Pose(800.0, 0.0, 300.0, 180.0, 0.0, 0.0),
+    position=HOME,
     pose_age_s=0.1,
-    field=field_of(Settings().robot),
+    field=field_of(Settings()),
+    tool=0,
 )
 SILENT = "no data for 450 ms: switch the sensor on, bring it closer"
 
@@ -93,10 +95,10 @@ CASES = {
     "held": (replace(READY, status=RobotStatus(REMOTE_PLAY, 0x42)), "robot_state", "held"),
     "input": (replace(READY, status=RobotStatus(REMOTE_PLAY, 0x44)), "robot_state", "held"),
     "running": (replace(READY, status=RobotStatus(0xC8, SERVO)), "robot_state", "running"),
-    "no pose": (replace(READY, pose=None), "robot_pose", "has not told its position"),
+    "no pose": (replace(READY, position=None), "robot_pose", "has not told its position"),
     "old pose": (replace(READY, pose_age_s=1.26), "robot_pose", "position is 1.3 s old"),
     "outside": (
-        replace(READY, pose=Pose(1300.0, 0.0, 0.0, 180.0, 0.0, 0.0)),
+        replace(READY, position=replace(HOME, pose=replace(HOME.pose, x_mm=1300.0, z_mm=0.0))),
         "robot_pose",
         "1300",
     ),
@@ -132,7 +134,7 @@ def test_they_come_in_the_order_in_which_a_person_would_mend_them():
         model_problem="no model is set",
         lock="a training is running",
         status=RobotStatus(REMOTE_PLAY, 0),
-        pose=None,
+        position=None,
     )
     assert [blocker.id for blocker in find_blockers(facts)] == [
         *("left_sensor", "right_sensor", "lock", "model", "robot_state", "robot_pose")
@@ -140,7 +142,7 @@ def test_they_come_in_the_order_in_which_a_person_would_mend_them():
 
 
 def test_without_a_link_the_robot_is_named_once_and_not_what_nobody_can_know():
-    facts = replace(READY, is_link_open=False, status=None, pose=None)
+    facts = replace(READY, is_link_open=False, status=None, position=None)
     assert [blocker.id for blocker in find_blockers(facts)] == ["robot_link"]
 
 
@@ -183,9 +185,10 @@ def test_what_nobody_knows_yet_counts_as_not_ready():
         link_text="not connected yet",
         status=None,
         status_age_s=float("inf"),
-        pose=None,
+        position=None,
         pose_age_s=float("inf"),
         field=READY.field,
+        tool=0,
     )
     names = {blocker.id for blocker in find_blockers(unheard)}
     assert names == {"left_sensor", "right_sensor", "model", "robot_link"}

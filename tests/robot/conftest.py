@@ -131,7 +131,7 @@ class ScriptedRobot:
         if name == "RPOSC":
             parts = [f"{v:.3f}" for v in self.pose.position_mm]
             parts += [f"{(v + 180) % 360 - 180:.2f}" for v in self.pose.rotation_deg]
-            return (",".join(parts) + ",0,0\r").encode()
+            return (",".join(parts) + ",1,0\r").encode()
         if asked not in self.ignores and name not in self.ignores:
             self._obey(asked, data, now_s)
         return b"0000\r\n"

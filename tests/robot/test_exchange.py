@@ -16,7 +16,7 @@ from gestureapp.robot.exchange import (
 )
 from gestureapp.robot.gate import Permit
 from gestureapp.robot.nx100 import Done, Failure
-from gestureapp.robot.values import Pose, PoseIncrement, RobotStatus
+from gestureapp.robot.values import Pose, PoseIncrement, Position, Posture, RobotStatus
 
 BANNER = b"OK: NX Information Server( 1.07) Keep-Alive:-1.\r\n"
 MOVE = nx100.move_increment(PoseIncrement(dz_mm=5.0), 20.0, frame=1, tool=0)
@@ -69,10 +69,11 @@ def test_a_command_without_data_sends_nothing_after_ok():
     assert out == b""
 
 
+HERE = Position(Pose(612.34, -55.02, 101.7, 179.98, -0.11, 92.4), Posture(0), 0)
 SCRIPT = (  # the controller's words, one request after another, with the request that is awaiting
     (nx100.HOLD_ON, (b"OK: HOLD\r\n", b"0000\r\n"), Done()),
     (nx100.READ_STATUS, (b"OK: RSTATS\r\n", b"202,64\r"), RobotStatus(202, 64)),
-    (nx100.read_pose(), (b"OK: RPOSC\r\n", POSE), Pose(612.34, -55.02, 101.7, 179.98, -0.11, 92.4)),
+    (nx100.read_pose(), (b"OK: RPOSC\r\n", POSE), HERE),
     (MOVE, (b"OK: IMOV\r\n", b"0000\r\n"), Done()),
 )
 

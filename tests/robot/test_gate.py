@@ -25,13 +25,22 @@ from gestureapp.robot.gate import (
     permit,
     robot_blocker,
 )
-from gestureapp.robot.values import Direction, Pose, Refusal, RobotStatus, StopReason
+from gestureapp.robot.values import (
+    Direction,
+    Pose,
+    Position,
+    Posture,
+    Refusal,
+    RobotStatus,
+    StopReason,
+)
 from gestureapp.robot.workspace import FieldOfOperation
 
 FIELD = FieldOfOperation(1200.0, 500.0, 20.0, ((120.0, 240.0), (-60.0, 60.0), (-90.0, 90.0)), 2.0)
 LIMITS = Limits(FIELD, 100.0, 10.0, 1, 0, True, 0.125, 0.2, 0.5)
 READY = RobotStatus(0x80 | 0x40 | 0x02, 0x40)
 FORWARD = Direction(0, 1, is_rotation=False)
+HOME = Position(Pose(800.0, 0.0, 300.0, 180.0, 0.0, 0.0), Posture(1), 0)
 NOW_S = 64.0
 TICK_S = 2.0**-40  # exact beside 64 s
 
@@ -44,8 +53,8 @@ VIEW = GateView(
     last_activation_id=6,
     status=READY,
     status_s=NOW_S,
-    pose=Pose(800.0, 0.0, 300.0, 180.0, 0.0, 0.0),
-    pose_s=NOW_S,
+    position=HOME,
+    position_s=NOW_S,
     left_s=NOW_S,
     is_left_start=True,
     is_left_stop=False,
@@ -103,7 +112,7 @@ def test_the_speed_told_is_the_one_that_is_sent():
         ({"last_activation_id": 7}, "activation_used"),
         ({"last_activation_id": 8}, "activation_used"),
         ({"status": None}, "no_status"),
-        ({"pose": None}, "pose_age"),
+        ({"position": None}, "pose_age"),
         ({"is_left_start": False}, "left_not_start"),
         ({"is_left_start": False, "is_left_stop": True}, "left_not_start"),
     ],
@@ -114,7 +123,7 @@ def test_everything_that_forbids_a_move_is_named(change, reason):
 
 AGES = [
     ("status_s", STATUS_MAX_AGE_S, "status_age"),
-    ("pose_s", POSE_MAX_AGE_S, "pose_age"),
+    ("position_s", POSE_MAX_AGE_S, "pose_age"),
     ("left_s", LIMITS.trip_level_s, "left_silent"),
 ]
 
@@ -142,7 +151,7 @@ def test_a_proposal_is_taken_only_from_now_until_it_is_too_old(age_s):
     )
 
 
-@pytest.mark.parametrize("name", ["status_s", "pose_s"])
+@pytest.mark.parametrize("name", ["status_s", "position_s"])
 def test_a_reading_from_the_future_counts_for_nothing(name):
     assert refused(replace(VIEW, **{name: NOW_S + TICK_S})) is not None
 
@@ -162,9 +171,13 @@ def test_a_left_arm_never_heard_is_silent():
     assert refusal.text == "left sensor silent for 0.250 s, limit 0.125 s"
 
 
+def at(**pose):
+    return replace(VIEW, position=replace(HOME, pose=replace(HOME.pose, **pose)))
+
+
 def test_what_the_field_refuses_the_gate_refuses():
-    assert refused(replace(VIEW, pose=replace(VIEW.pose, x_mm=1300.0))) == "outside_field"
-    assert refused(replace(VIEW, pose=replace(VIEW.pose, x_mm=1150.0))) == "at_limit"
+    assert refused(at(x_mm=1300.0)) == "outside_field"
+    assert refused(at(x_mm=1150.0)) == "at_limit"
 
 
 @pytest.mark.parametrize("frame", [2, 3, 25])
@@ -228,9 +241,9 @@ def test_with_everything_in_order_permission_is_given():
         ({"is_releasing": True}, "busy"),
         ({"is_moving": True}, "busy"),
         ({"status_s": float("-inf")}, "status_age"),
-        ({"pose_s": float("-inf")}, "status_age"),
+        ({"position_s": float("-inf")}, "status_age"),
         ({"status_s": NOW_S - STATUS_MAX_AGE_S - 1e-6}, "status_age"),
-        ({"pose_s": NOW_S - STATUS_MAX_AGE_S - 1e-6}, "status_age"),
+        ({"position_s": NOW_S - STATUS_MAX_AGE_S - 1e-6}, "status_age"),
         ({"status_s": NOW_S + TICK_S}, "status_age"),
         ({"status_s": NOW_S - STATUS_MAX_AGE_S + 1e-6}, None),
         ({"status": None}, "no_status"),

@@ -9,7 +9,15 @@ from hypothesis import strategies as st
 
 from gestureapp.robot import messages as m
 from gestureapp.robot.gate import Limits
-from gestureapp.robot.values import Direction, Pose, PoseIncrement, Refusal, StopReason
+from gestureapp.robot.values import (
+    Direction,
+    Pose,
+    PoseIncrement,
+    Position,
+    Posture,
+    Refusal,
+    StopReason,
+)
 from gestureapp.robot.workspace import FieldOfOperation
 
 FIELD = FieldOfOperation(1200.0, 500.0, 20.0, ((120.0, 240.0), (-60.0, 60.0), (-90.0, 90.0)), 2.0)
@@ -31,7 +39,7 @@ ALL = [
     m.LinkReport(True, "x"),
     m.StatusReport(1.0, 194, 64, (4416, 1)),
     m.StatusReport(1.0, 194, 64, ()),
-    m.PoseReport(1.0, POSE),
+    m.PoseReport(1.0, Position(POSE, Posture(33), 23)),
     m.Armed(),
     m.ArmRefused(REFUSAL),
     m.Disarmed(),
@@ -83,9 +91,9 @@ def test_a_message_with_a_field_too_many_or_too_few_is_none(message):
         said("Nothing"),
         b'{"is": ["Beat"]}',
         b'{"is": {}}',
-        said("PoseReport", t_s=1.0, pose=None),
-        said("PoseReport", t_s=1.0, pose="pose"),
-        said("PoseReport", t_s="1", pose=[1, 2]),
+        said("PoseReport", t_s=1.0, position=None),
+        said("PoseReport", t_s=1.0, position="pose"),
+        said("PoseReport", t_s="1", position=[1, 2]),
         said("Propose", activation_id=True, direction=None, t_s=0.0),
         said("Propose", activation_id=1.0, direction=None, t_s=0.0),
         said(

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 from gestureapp.robot import nx100
 from gestureapp.robot.nx100 import Alarms, Done, Failure, LineSplitter, Request, Unreadable
-from gestureapp.robot.values import Pose, PoseIncrement, RobotStatus
+from gestureapp.robot.values import Pose, PoseIncrement, Position, Posture, RobotStatus
 
 COMMANDS = ("RSTATS", "RPOSC", "RALARM", "IMOV", "HOLD", "SVON")
 
@@ -169,6 +169,9 @@ def test_a_failure_speaks_in_words_where_its_code_is_known():
     assert Failure(None, "NG: busy").words == "NG: busy"
 
 
+LAST = Position(Pose(1, 2, 3, 4, 5, 6), Posture(63), 23)
+
+
 @pytest.mark.parametrize(
     ("request_", "line", "answer"),
     [
@@ -178,11 +181,15 @@ def test_a_failure_speaks_in_words_where_its_code_is_known():
         (nx100.READ_STATUS, "0,255", RobotStatus(0, 255)),
         (
             nx100.read_pose(),
-            "612.340,-55.020,101.700,179.98,-0.11,92.40,0,0",
-            Pose(612.34, -55.02, 101.7, 179.98, -0.11, 92.4),
+            "612.340,-55.020,101.700,179.98,-0.11,92.40,5,3",
+            Position(Pose(612.34, -55.02, 101.7, 179.98, -0.11, 92.4), Posture(5), 3),
         ),
-        (nx100.read_pose(), "1,2,3,4,5,6,0,0,7,8,9,10,11,12", Pose(1, 2, 3, 4, 5, 6)),
-        (nx100.read_pose(), "+1.,.5,-0,4,5,6,0,0", Pose(1, 0.5, 0, 4, 5, 6)),
+        (nx100.read_pose(), "1,2,3,4,5,6,63,23,7,8,9,10,11,12", LAST),
+        (
+            nx100.read_pose(),
+            "+1.,.5,-0,4,5,6,0,0",
+            Position(Pose(1, 0.5, 0, 4, 5, 6), Posture(0), 0),
+        ),
         (nx100.READ_ALARMS, "0,0,0,0,0,0,0,0,0,0", Alarms(((0, 0),) * 5)),
         (
             nx100.READ_ALARMS,
@@ -220,6 +227,11 @@ def test_alarms_give_the_codes_that_are_present():
         (nx100.read_pose(), "1,2,3,4,5,6,0"),
         (nx100.read_pose(), "1,2,3,4,5,6,0,0,0"),
         (nx100.read_pose(), "1,2,3,4,5,inf,0,0"),
+        (nx100.read_pose(), "1,2,3,4,5,6,64,0"),
+        (nx100.read_pose(), "1,2,3,4,5,6,-1,0"),
+        (nx100.read_pose(), "1,2,3,4,5,6,0.5,0"),
+        (nx100.read_pose(), "1,2,3,4,5,6,0,24"),
+        (nx100.read_pose(), "1,2,3,4,5,6,0,-1"),
         (nx100.read_pose(), "1000000.1,2,3,4,5,6,0,0"),
         (nx100.read_pose(), "9" * 400 + ",2,3,4,5,6,0,0"),
         (nx100.READ_ALARMS, "0,0,0,0,0,0,0,0,0"),
@@ -245,10 +257,10 @@ def test_no_rubbish_raises_and_what_is_read_was_there(name, line):
             assert [float(f) for f in line.split(",")] == [a, b]
             assert 0 <= a <= 255
             assert 0 <= b <= 255
-        case Pose():
-            values = (*answer.position_mm, *answer.rotation_deg)
+        case Position(pose, posture, tool):
+            values = (*pose.position_mm, *pose.rotation_deg, posture.bits, tool)
             assert all(math.isfinite(v) for v in values)
-            assert [float(f) for f in line.split(",")[:6]] == list(values)
+            assert [float(f) for f in line.split(",")[:8]] == list(values)
         case Alarms():
             assert [float(f) for f in line.split(",")] == [n for p in answer.pairs for n in p]
         case Failure():

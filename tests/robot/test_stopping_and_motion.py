@@ -13,15 +13,20 @@ from gestureapp.robot.nx100 import Done, Failure
 from gestureapp.robot.permission import Permission
 from gestureapp.robot.release import Release
 from gestureapp.robot.stopping import STILL_APART_S, Standstill, StopPath, is_same_place
-from gestureapp.robot.values import Direction, Pose, RobotStatus, StopReason
+from gestureapp.robot.values import Direction, Pose, Position, Posture, RobotStatus, StopReason
 from gestureapp.robot.watchdog import IDLE_TICK_S, TICK_S, next_look_s
 
 POSE = Pose(800.0, 0.0, 300.0, 180.0, 0.0, 0.0)
 IDLE, RUNNING = RobotStatus(0xC2, 0x40), RobotStatus(0xCA, 0x40)
+HERE = Position(POSE, Posture(1), 0)
 READ_POSE = nx100.read_pose()
 VIEW = GateView(
-    True, None, False, False, False, 0, IDLE, 0.0, POSE, 0.0, 0.0, True, False, True
+    True, None, False, False, False, 0, IDLE, 0.0, HERE, 0.0, 0.0, True, False, True
 )  # fmt: skip
+
+
+def at(x_mm):
+    return replace(HERE, pose=replace(POSE, x_mm=x_mm))
 
 
 def stopping(reason=StopReason.STOP_PRESSED, now_s=0.0):
@@ -44,7 +49,7 @@ def test_what_was_asked_before_the_stop_says_nothing_about_standing():
     path.answered(nx100.READ_STATUS, IDLE, 0.0)
     held(path)
     for t_s in (0.1, 0.2):
-        tell(path, READ_POSE, POSE, t_s)
+        tell(path, READ_POSE, HERE, t_s)
     assert path.check(0.2) is None
 
     tell(path, nx100.READ_STATUS, IDLE, 0.2)
@@ -55,11 +60,11 @@ def test_two_equal_positions_are_a_standstill_only_some_time_apart():
     path = stopping()
     held(path)
     tell(path, nx100.READ_STATUS, IDLE, 0.0)
-    tell(path, READ_POSE, POSE, 0.0)
-    tell(path, READ_POSE, POSE, STILL_APART_S - 0.001)
+    tell(path, READ_POSE, HERE, 0.0)
+    tell(path, READ_POSE, HERE, STILL_APART_S - 0.001)
     assert path.check(0.5) is None
 
-    tell(path, READ_POSE, POSE, STILL_APART_S)
+    tell(path, READ_POSE, HERE, STILL_APART_S)
     assert path.check(0.5).pose == POSE
 
 
@@ -67,12 +72,12 @@ def test_a_robot_that_moves_on_after_it_seemed_to_stand_does_not_stand():
     path = stopping()
     held(path)
     for t_s in (0.0, 0.1):
-        tell(path, READ_POSE, POSE, t_s)
-    tell(path, READ_POSE, replace(POSE, x_mm=801.0), 0.2)
+        tell(path, READ_POSE, HERE, t_s)
+    tell(path, READ_POSE, at(x_mm=801.0), 0.2)
     tell(path, nx100.READ_STATUS, IDLE, 0.2)
     assert path.check(0.2) is None
 
-    tell(path, READ_POSE, replace(POSE, x_mm=801.0), 0.3)
+    tell(path, READ_POSE, at(x_mm=801.0), 0.3)
     assert path.check(0.3).pose.x_mm == 801.0
 
 
@@ -81,7 +86,7 @@ def test_a_robot_that_still_creeps_does_not_stand():
     held(path)
     tell(path, nx100.READ_STATUS, IDLE, 0.0)
     for i in range(9):
-        tell(path, READ_POSE, replace(POSE, x_mm=800.0 + 0.06 * i), 0.1 * i)
+        tell(path, READ_POSE, at(x_mm=800.0 + 0.06 * i), 0.1 * i)
         assert path.check(0.1 * i) is None
 
 
@@ -89,7 +94,7 @@ def test_a_running_bit_takes_back_what_seemed_to_stand():
     path = stopping()
     held(path)
     for t_s in (0.0, 0.1):
-        tell(path, READ_POSE, POSE, t_s)
+        tell(path, READ_POSE, HERE, t_s)
     tell(path, nx100.READ_STATUS, RUNNING, 0.1)
     tell(path, nx100.READ_STATUS, IDLE, 0.2)
 
@@ -101,7 +106,7 @@ def test_after_a_lost_link_everything_has_to_be_read_again(again):
     path = stopping()
     held(path)
     tell(path, nx100.READ_STATUS, IDLE, 0.0)
-    tell(path, READ_POSE, POSE, 0.0)
+    tell(path, READ_POSE, HERE, 0.0)
     path.link_broken()
     assert path.next_request(0.1, 1) == nx100.HOLD_ON
     if again != "held":
@@ -111,7 +116,7 @@ def test_after_a_lost_link_everything_has_to_be_read_again(again):
     if again != "status":
         tell(path, nx100.READ_STATUS, IDLE, 0.1)
     if again != "pose":
-        tell(path, READ_POSE, POSE, 0.1)
+        tell(path, READ_POSE, HERE, 0.1)
 
     assert path.check(0.2) is None
 
@@ -243,7 +248,7 @@ def test_a_release_goes_position_hold_off_state_and_says_once_that_it_is_done():
     assert not release.may_begin(9.0)
     assert release.next_request(1) == READ_POSE
     release.answered(nx100.READ_ALARMS, nx100.Alarms(()), 0.0)
-    release.answered(READ_POSE, POSE, 0.0)
+    release.answered(READ_POSE, HERE, 0.0)
     assert release.next_request(1) == nx100.HOLD_OFF
     release.answered(nx100.HOLD_OFF, Done(), 1.0)
     assert release.is_watching(1.499)

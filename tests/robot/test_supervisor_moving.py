@@ -3,13 +3,14 @@
 import pytest
 
 from gestureapp.robot import messages as m
-from gestureapp.robot.values import Direction, Pose, StopReason
+from gestureapp.robot.values import Direction, Pose, Position, Posture, StopReason
 
 
 def test_a_connected_robot_is_read_and_told_of(cell):
     assert cell.heard(m.LinkReport)[0].is_open
     assert cell.heard(m.StatusReport)[-1].data_1 == 0xC2
-    assert cell.heard(m.PoseReport)[-1].pose == Pose(800.0, 0.0, 300.0, -180.0, 0.0, 0.0)
+    here = Position(Pose(800.0, 0.0, 300.0, -180.0, 0.0, 0.0), Posture(1), 0)
+    assert cell.heard(m.PoseReport)[-1].position == here
     assert cell.supervisor.is_link_open
     assert not cell.supervisor.may_move
     assert cell.moves() == []

@@ -6,8 +6,10 @@ import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
+from gestureapp.robot import workspace
 from gestureapp.robot.nx100 import move_increment
-from gestureapp.robot.values import Direction, Pose, Refusal
+from gestureapp.robot.obstacles import sphere_crossings
+from gestureapp.robot.values import Direction, Pose, Position, Posture, Refusal
 from gestureapp.robot.workspace import (
     EDGE_DEG,
     EDGE_MM,
@@ -15,10 +17,7 @@ from gestureapp.robot.workspace import (
     MIN_LENGTH_MM,
     FieldOfOperation,
     Plan,
-    find_outside,
     nearest_turn,
-    plan,
-    sphere_crossings,
 )
 
 RANGES = ((120.0, 240.0), (-60.0, 60.0), (-90.0, 90.0))
@@ -29,6 +28,14 @@ TINY = 1e-6
 
 def pose(x=0.0, y=0.0, z=0.0, rx=180.0, ry=0.0, rz=0.0):
     return Pose(x, y, z, rx, ry, rz)
+
+
+def plan(start, direction, field):
+    return workspace.plan(Position(start, Posture(1), 0), direction, field)
+
+
+def find_outside(start, field):
+    return workspace.find_outside(Position(start, Posture(1), 0), field)
 
 
 def along(axis, sign):

@@ -6,8 +6,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from gestureapp.robot import hp6
 from gestureapp.robot.values import Pose, PoseIncrement
-from gestureapp.simulation import hp6
 from gestureapp.simulation.controller import Controller
 from gestureapp.simulation.nx100_values import (
     Code,
@@ -215,7 +215,9 @@ def test_leaving_the_reach_is_an_alarm_that_reset_and_servo_on_recover():
     assert model.move(Move(0, 200.0, 1, PoseIncrement(dx_mm=900.0)), 0.0) is Code.OK
     ended = end_of(model)
     assert ended.reason is EndReason.ALARM
-    assert math.hypot(*hp6.wrist_mm(ended.pose)) == pytest.approx(hp6.REACH_MM, abs=1e-3)
+    x, _, z = hp6.wrist_mm(ended.pose)
+    stretched = hp6.LOWER_ARM_MM + hp6.ELBOW_TO_WRIST_MM
+    assert math.hypot(x - hp6.SHOULDER_OUT_MM, z) == pytest.approx(stretched, abs=1e-3)
     assert model.status(ended.t_s) == (194, 0x10)
     back, t_s = Move(0, 200.0, 1, PoseIncrement(dx_mm=-50.0)), ended.t_s + 1.0
     assert model.move(back, t_s) is Code.ALARM
