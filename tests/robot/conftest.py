@@ -10,6 +10,12 @@ from gestureapp.robot.outputs import DropRobot, ToApp, ToRobot
 from gestureapp.robot.supervisor import Supervisor
 from gestureapp.robot.values import Direction, Pose
 from gestureapp.robot.workspace import FieldOfOperation
+from gestureapp.simulation.controller import Controller
+from gestureapp.simulation.nx100_commands import execute
+from gestureapp.simulation.nx100_conversation import Conversation
+from gestureapp.simulation.nx100_lines import Request
+from gestureapp.simulation.nx100_options import Fault, Nx100Options
+from gestureapp.simulation.nx100_values import ControllerOptions, Hold
 
 FIELD = FieldOfOperation(1200.0, 500.0, 20.0, ((120.0, 240.0), (-60.0, 60.0), (-90.0, 90.0)), 2.0)
 LIMITS = Limits(FIELD, 100.0, 10.0, 1, 0, True, 0.125, 0.25, 0.5)
@@ -161,6 +167,48 @@ class ScriptedRobot:
         unit = [step / length for step in steps]
         self.move = (unit, speed, min(length, self.stops_after_mm))
         self.since_s, self.stop_at_s = now_s + self.start_s, float("inf")
+
+
+class EmulatedRobot:
+    """The emulated controller and its conversation, in the cell's manual time; no sockets.
+
+    Attributes:
+        controller: The model.
+        events: Starts and ends of motion, in order.
+    """
+
+    def __init__(self, **cell):
+        self.options = Nx100Options(controller=ControllerOptions(**cell))
+        self.controller = Controller(self.options.controller, START_S)
+        self.requests, self.events = [], []
+        self.now_s = START_S
+
+    @property
+    def is_running(self):
+        return self.controller.is_running(self.now_s)
+
+    @property
+    def is_held(self):
+        return Hold.COMMAND in self.controller.holds
+
+    def advance(self, now_s):
+        self.now_s = now_s
+        self.controller.advance(now_s)
+        self.events += self.controller.take_events()
+
+    def connected(self):
+        def executed(request, now_s):
+            return execute(request, self.controller, now_s)
+
+        self.talk = Conversation(self.options, executed, self.now_s)
+
+    def receive(self, data, now_s):
+        for event in self.talk.receive(data, now_s, Fault()):
+            if isinstance(event, Request):
+                self.requests.append((now_s, f"{event.name} {event.data}".strip()))
+
+    def due(self, now_s):
+        return b"".join(self.talk.take(now_s, Fault()))
 
 
 class Cell:
@@ -323,6 +371,12 @@ def new_cell():
 def new_robot():
     """Makes scripted controllers."""
     return ScriptedRobot
+
+
+@pytest.fixture(scope="session")
+def new_emulated():
+    """Makes emulated controllers: ``new_emulated(ladder_s=…)``."""
+    return EmulatedRobot
 
 
 @pytest.fixture(scope="session")

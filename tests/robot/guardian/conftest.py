@@ -154,9 +154,10 @@ def start(limits):
     """Starts emulators, guardians and applications; all gone in the end."""
     with contextlib.ExitStack() as stack:
 
-        def started(options=None, *, log="", port=None, host="127.0.0.1"):
+        def started(options=None, *, log="", port=None, host="127.0.0.1", **change):
             emulator = stack.enter_context(Nx100Emulator(options))
             wanted = replace(limits, trip_level_s=0.3, control_limit_s=0.5, gui_limit_s=1.0)
+            wanted = replace(wanted, **change)
             guardian = GuardianProcess(host, emulator.port if port is None else port, wanted, log)
             stack.callback(guardian.close)
             return emulator, guardian
