@@ -4,6 +4,7 @@ import logging
 import os
 import signal
 import sys
+import threading
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from types import FrameType, TracebackType
@@ -27,6 +28,7 @@ from gestureapp.window_port import Driver
 from gestureapp.worker import Worker
 from ui.hands import Hands
 from ui.main_window import MainWindow
+from ui.session_end import SessionEnd, session_id, system_bus
 from ui.theme import Theme
 from ui.virtual_operator import VirtualOperator
 
@@ -53,7 +55,8 @@ def run_window(
 ) -> int:
     """Show the cell until the window is closed; then the cell is shut down.
 
-    Ctrl+C and a request to terminate close the window as its own button does.
+    Ctrl+C, a request to terminate and a terminal that is closed close the window as its own button
+    does. A sleep, a shutdown, a lock or a log-off stop and disarm first.
 
     Args:
         cell: The running cell.
@@ -103,7 +106,7 @@ def stopping_hook(cell: CellControls, before: ExceptHook) -> ExceptHook:
     """
 
     def hook(kind: type[BaseException], error: BaseException, trace: TracebackType | None) -> None:
-        cell.stop()
+        cell.stop(f"an error nobody handled: {kind.__name__}: {error}")
         if issubclass(kind, KeyboardInterrupt):
             before(kind, error, trace)
             return
@@ -168,25 +171,34 @@ def _fit(window: MainWindow) -> None:
 
 @contextmanager
 def _hooks(cell: CellControls, window: MainWindow) -> Iterator[None]:
-    """Qt's messages, unhandled errors and signals, for as long as the window lives."""
+    """Qt's messages, unhandled errors, signals and the session's end, while the window lives."""
 
     def close(number: int, frame: FrameType | None) -> None:
         log.info("signal %d: closing", number)
         window.close()
 
     old_messages = qInstallMessageHandler(_log_qt_message)
-    old_hook = sys.excepthook
-    sys.excepthook = stopping_hook(cell, old_hook)
+    old_hook, old_thread_hook = sys.excepthook, threading.excepthook
+    sys.excepthook = hook = stopping_hook(cell, old_hook)
+
+    def thread_hook(args: threading.ExceptHookArgs) -> None:
+        hook(args.exc_type, args.exc_value or args.exc_type(), args.exc_traceback)
+
+    threading.excepthook = thread_hook
     # Python sees a signal as soon as the window's timer runs next.
     old_signals = {
-        number: signal.signal(number, close) for number in (signal.SIGINT, signal.SIGTERM)
+        getattr(signal, name): signal.signal(getattr(signal, name), close)
+        for name in ("SIGINT", "SIGTERM", "SIGHUP")
+        if hasattr(signal, name)
     }
+    session_end = SessionEnd(cell, system_bus(), session_id())
     try:
         yield
     finally:
+        session_end.close()
         for number, handler in old_signals.items():
             signal.signal(number, handler)
-        sys.excepthook = old_hook
+        sys.excepthook, threading.excepthook = old_hook, old_thread_hook
         qInstallMessageHandler(old_messages)
 
 

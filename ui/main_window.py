@@ -1,6 +1,7 @@
 """The window: the cell on one screen, polled from one timer."""
 
 import logging
+from functools import partial
 
 from PySide6.QtCore import QSize, Qt, QTimer
 from PySide6.QtGui import QCloseEvent, QPalette, QResizeEvent
@@ -115,7 +116,8 @@ class MainWindow(QMainWindow):
     def closeEvent(self, event: QCloseEvent) -> None:
         """Stop, disarm, shut down; then close, whatever came of it."""
         self._timer.stop()
-        for step in (self._cell.stop, self._cell.disarm, self._cell.shutdown):
+        stop = partial(self._cell.stop, "the window was closed")
+        for step in (stop, self._cell.disarm, self._cell.shutdown):
             try:
                 step()
             except Exception:  # the last thing that runs: each step gets its turn

@@ -2,6 +2,7 @@
 
 from typing import Protocol
 
+from gestureapp.cell.events import STOP_WORDS
 from gestureapp.cell.snapshot import Snapshot
 from gestureapp.config import Settings
 from gestureapp.sensing.store import SampleStore
@@ -32,8 +33,8 @@ class CellControls(Protocol):
     def disarm(self) -> None:
         """The operator takes the permission back; a running move is stopped."""
 
-    def stop(self) -> None:
-        """STOP was pressed. Goes straight to the guardian, past every queue."""
+    def stop(self, why: str = STOP_WORDS) -> None:
+        """STOP was pressed, or ``why`` else. Goes straight to the guardian, past every queue."""
 
     def servo_on(self) -> None:
         """The operator asks for servo power; taken only while not armed."""

@@ -123,12 +123,12 @@ class Cell:
         """The operator takes the permission back."""
         self._control.put(e.DisarmPressed(self._clock()))
 
-    def stop(self) -> None:
+    def stop(self, why: str = e.STOP_WORDS) -> None:
         """STOP: first straight to the guardian, then to the cell's own knowledge."""
         link = self._link
         if link is not None and self.settings.robot.host:
-            link.stop_now("STOP was pressed")
-        self._control.put(e.StopPressed(self._clock()))
+            link.stop_now(why)
+        self._control.put(e.StopPressed(self._clock(), why))
 
     def servo_on(self) -> None:
         """The operator asks for servo power."""

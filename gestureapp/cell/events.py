@@ -46,11 +46,19 @@ class DisarmPressed:
     t_s: float
 
 
+STOP_WORDS = "STOP was pressed"
+"""Why, when nothing else is said."""
+
+
 @dataclass(frozen=True, slots=True)
 class StopPressed:
-    """STOP. The window has told the guardian already; this is the cell's own knowledge of it."""
+    """STOP, by the operator or for another reason from outside the cell.
+
+    The window has told the guardian already; this is the cell's own knowledge of it.
+    """
 
     t_s: float
+    text: str = STOP_WORDS
 
 
 @dataclass(frozen=True, slots=True)

@@ -217,9 +217,9 @@ def _pressed(
 ) -> Step:
     match event:
         case StopPressed() if not rules.has_robot:
-            return s, (Say("STOP was pressed; there is no robot to stop"),)
+            return s, (Say(f"{event.text}; there is no robot to stop"),)
         case StopPressed():
-            return _ask_stop(s, event.t_s, StopReason.STOP_PRESSED, "STOP was pressed")
+            return _ask_stop(s, event.t_s, StopReason.STOP_PRESSED, event.text)
         case ArmPressed() if s.can_arm:
             return replace(s, arming_since_s=event.t_s), (SendArm(),)
         case ArmPressed() if s.blockers:

@@ -178,6 +178,7 @@ class FakeCell:
         self.shown = shown
         self.failure: Exception | None = None
         self.calls: list[str] = []
+        self.whys: list[str] = []
         self.n_ticks = 0
         self.n_polls = 0
         self.clock: Callable[[], float] | None = None
@@ -205,8 +206,9 @@ class FakeCell:
     def disarm(self) -> None:
         self.calls.append("disarm")
 
-    def stop(self) -> None:
+    def stop(self, why: str = "STOP was pressed") -> None:
         self.calls.append("stop")
+        self.whys.append(why)
 
     def servo_on(self) -> None:
         self.calls.append("servo_on")

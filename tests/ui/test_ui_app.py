@@ -42,10 +42,10 @@ def test_an_error_nobody_handled_stops_the_robot_before_it_is_logged(cell, caplo
     passed_on: list[object] = []
     hook = stopping_hook(cell, lambda *args: passed_on.append(args))
     order: list[str] = []
-    cell.stop = lambda: order.append(f"stop, {len(caplog.records)} logged")
+    cell.stop = lambda why: order.append(f"{why}, {len(caplog.records)} logged")
     error = RuntimeError("a widget broke")
     hook(RuntimeError, error, None)
-    assert order == ["stop, 0 logged"]
+    assert order == ["an error nobody handled: RuntimeError: a widget broke, 0 logged"]
     assert [r.levelno for r in caplog.records] == [logging.CRITICAL]
     assert passed_on == []
     hook(KeyboardInterrupt, KeyboardInterrupt(), None)
