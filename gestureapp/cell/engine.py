@@ -10,7 +10,7 @@ from gestureapp.cell.control import Control
 from gestureapp.cell.guardian_link import GuardianLink
 from gestureapp.cell.inputs import GuardianPort, GuardianSaid, SampleCame, SensorTold, ServoAsked
 from gestureapp.cell.records import Record, Recorder, Topic
-from gestureapp.cell.snapshot import RecordingView, Snapshot
+from gestureapp.cell.snapshot import CellState, RecordingView, Snapshot
 from gestureapp.clock import Clock, monotonic
 from gestureapp.config import DriveMode, JointSettings, SensorSettings, Settings
 from gestureapp.errors import ConfigError, GuardianLost, ModelError, WorkerError
@@ -21,6 +21,7 @@ from gestureapp.recognition.values import Recogniser
 from gestureapp.robot.arm import ArmLimits
 from gestureapp.robot.gate import Limits
 from gestureapp.robot.obstacles import Column, KeepOut
+from gestureapp.robot.values import StopReason
 from gestureapp.robot.workspace import FieldOfOperation
 from gestureapp.sensing.posture import PostureDetector
 from gestureapp.sensing.reader import SensorReader
@@ -105,6 +106,8 @@ class Cell:
     def snapshot(self) -> Snapshot:
         """The newest picture of the cell. Any thread."""
         picture = replace(self._control.picture, recording=self._recording())
+        if self._worker.error is not None:
+            return _orphaned(picture, is_open=not self._control.at_rest.is_set())
         age_s = self._clock() - picture.t_s
         if age_s > STALE_PICTURE_S and not self._is_closing:
             sentence = f"The control thread is silent for {age_s:.1f} s: restart the application."
@@ -196,7 +199,19 @@ class Cell:
     def _control_died(self, error: WorkerError) -> None:
         """Without a control thread nobody can be trusted: the guardian stops what moves."""
         if self._link is not None:
-            self._link.stop_now(f"cell fault: {error}")
+            self._link.stop_now(f"cell fault: {error}", StopReason.CELL_FAULT)
+
+
+def _orphaned(picture: Snapshot, *, is_open: bool) -> Snapshot:
+    """The last picture of a control thread that has ended: nobody reads a stop back any more."""
+    sentence = "The control thread has ended by an error; the guardian stops the robot."
+    return replace(
+        picture,
+        state=CellState.STOPPING if is_open else CellState.NOT_READY,
+        sentence=f"{sentence} Restart the application.",
+        can_arm=False,
+        is_stop_unconfirmed=is_open,
+    )
 
 
 def find_recogniser(settings: Settings) -> tuple[Recogniser | None, str, str]:

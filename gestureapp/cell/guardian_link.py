@@ -87,9 +87,9 @@ class GuardianLink:
         """Say something. Control thread only; a guardian that does not take it shows as lost."""
         self._send_on(self._control, message)
 
-    def stop_now(self, text: str) -> None:
+    def stop_now(self, text: str, reason: StopReason = StopReason.STOP_PRESSED) -> None:
         """STOP from the window: straight to the guardian, past every queue. Any thread."""
-        message = m.Stop(StopReason.STOP_PRESSED, text, self._clock())
+        message = m.Stop(reason, text, self._clock())
         with self._window_lock:
             self._send_on(self._window, message)
 

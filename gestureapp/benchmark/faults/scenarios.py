@@ -28,6 +28,8 @@ ROUND_MS = 30
 """A round of the control thread and of the guardian beyond that."""
 LOCKED_S = 0.6
 BLOCKED_S = 5.0
+ASLEEP_S = 2.0
+"""Longer, and the robot would reach the end of its way meanwhile."""
 TOLD_S = 3.0
 """A stop that the robot has not confirmed is told 1.0 s after it was asked for."""
 DISK_WAIT_S = 6.0
@@ -198,6 +200,18 @@ def _signal(pid: int, number: signal.Signals) -> float:
     return begun_s
 
 
+def _suspend(rig: Rig) -> float:
+    """The controller is another machine, and goes on while this one stands still."""
+    pids = (rig.application.pid, rig.application.guardian_pid)
+    for pid in pids:
+        _signal(pid, signal.SIGSTOP)
+    time.sleep(ASLEEP_S)
+    awake_s = monotonic()
+    for pid in pids:
+        _signal(pid, signal.SIGCONT)
+    return awake_s
+
+
 # The disk.
 
 
@@ -254,7 +268,7 @@ def _sensor_scenarios() -> Iterator[Scenario]:
 SCENARIOS = (
     Scenario(
         "kill", "application killed (kill -9)", "its connections end", ANSWER_MS, _kill,
-        ("application gone",), ends_application=True,
+        ("application gone",), screen="", mend=Rig.end_application,
     ),
     Scenario(
         "pause", "application stopped (SIGSTOP)", _TRIP, TRIP_MS + ANSWER_MS, _pause,
@@ -267,7 +281,8 @@ SCENARIOS = (
     ),
     Scenario(
         "control", "control thread raises", "its end is reported", ANSWER_MS + ROUND_MS,
-        _break_control, ("cell fault", "control"), ends_application=True,
+        _break_control, ("the control thread has ended by an error",), screen="STOPPING",
+        mend=Rig.end_application,
     ),
     Scenario(
         "lock", f"interpreter lock held {LOCKED_S} s by a C call", _TRIP, TRIP_MS + ANSWER_MS,
@@ -280,6 +295,11 @@ SCENARIOS = (
         counted=_LAST,
     ),
     *_sensor_scenarios(),
+    Scenario(
+        "suspend", f"computer asleep {ASLEEP_S:.0f} s: application and guardian stand still",
+        "the time that has passed, at the trip level", ANSWER_MS + ROUND_MS, _suspend,
+        ("stood still",), counted="from the wake-up",
+    ),
     Scenario(
         "cut", "robot link cut (RST)", "the connection ends", 100, _cut, ("reset", "closed"),
     ),
