@@ -9,6 +9,7 @@ from pathlib import Path
 class Requested:
     """A request that the controller emulator has received. Times: first and last byte."""
 
+    connection: int
     name: str
     data: str
     first_s: float
@@ -65,7 +66,7 @@ class ControllerLog:
             case "request":
                 begun_s = self._first_s.get(connection, t_s)
                 name, data = str(event["request"]), str(event["data"] or "")
-                self.requests.append(Requested(name, data, begun_s, t_s))
+                self.requests.append(Requested(connection, name, data, begun_s, t_s))
             case "motion_start":
                 self.starts_s.append(t_s)
             case "motion_end":

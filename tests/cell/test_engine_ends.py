@@ -3,7 +3,6 @@
 import os
 import signal
 import sys
-import threading
 import time
 from collections.abc import Callable
 from dataclasses import replace
@@ -19,8 +18,6 @@ from gestureapp.errors import ConfigError
 from gestureapp.recording.session_reader import SessionFile, read_session
 from gestureapp.robot.values import RobotStatus
 from gestureapp.simulation.demo import MODEL
-from gestureapp.simulation.nx100_log import What
-from gestureapp.simulation.nx100_values import EndReason
 from tests.cell.bench import Bench
 
 S = CellState
@@ -39,30 +36,6 @@ def stands_held(bench: Bench) -> bool:
     with bench.nx100.lock:
         status = RobotStatus(*bench.nx100.controller.status(bench.nx100.now_s()))
     return status.is_held_by_command and not status.is_running
-
-
-@pytest.mark.process
-@pytest.mark.logs_errors
-@pytest.mark.parametrize("how", [signal.SIGKILL, signal.SIGSTOP], ids=["killed", "frozen"])
-def test_a_guardian_that_is_gone_while_moving_is_followed_by_one_that_holds_first(
-    tmp_path: Path, how: signal.Signals
-):
-    with Bench(tmp_path) as bench:
-        bench.move()
-        pid, connection = bench.guardian_pid, bench.last(What.IN).connection
-        os.kill(pid, how)
-        bench.reach(S.STOPPING)
-        snapshot = bench.reach(S.STOPPED)
-        assert "held by a new one" in snapshot.sentence
-        assert bench.guardian_pid != pid
-        assert has_ended(pid)
-        assert stands_held(bench)
-        assert bench.motion_end().name == EndReason.HOLD.value
-        new = [r.name for r in bench.nx100.log.requests() if r.connection > connection]
-        assert new[0] == "HOLD"
-        bench.arm()
-        bench.operator.gesture("X+")
-        bench.reach(S.MOVING)
 
 
 @pytest.mark.process
@@ -116,20 +89,6 @@ def test_a_second_cell_is_told_who_has_the_robot_and_gets_it_next(tmp_path: Path
 def blocker_of(cell: Cell, name: str) -> Blocker:
     found = {blocker.id: blocker for blocker in cell.snapshot().blockers}
     return found.get(name, Blocker(name, "", ""))
-
-
-@pytest.mark.process
-@pytest.mark.logs_errors
-def test_a_control_thread_that_dies_has_the_robot_stopped_by_the_guardian(tmp_path: Path):
-    is_broken = threading.Event()
-    with Bench(tmp_path, is_broken) as bench:
-        bench.move()
-        is_broken.set()
-        bench.until(lambda _: stands_held(bench))
-        assert bench.motion_end().name == EndReason.HOLD.value
-        snapshot = bench.until(lambda s: "restart the application" in s.sentence)
-        assert "control thread is silent" in snapshot.sentence
-        assert not snapshot.can_arm
 
 
 def states(session: SessionFile) -> list[str]:

@@ -42,7 +42,8 @@ class Scenario:
         expected: What the robot does.
         screen: The state on the screen afterwards; empty when there is no screen any more.
         counted: From when the times run, where that is not the fault's own beginning.
-        verify: What else has to be so after the robot stands; returns what is not.
+        verify: What else has to be so after the robot stands, given when the fault began; returns
+            what is not.
         told_within_s: From standstill until the screen says STOPPED and why.
     """
 
@@ -57,7 +58,7 @@ class Scenario:
     expected: Expected = Expected.STANDS
     screen: str = "STOPPED"
     counted: str = ""
-    verify: Callable[[Rig], list[str]] = lambda rig: []
+    verify: Callable[[Rig, float], list[str]] = lambda rig, begun_s: []
     told_within_s: float = TOLD_WITHIN_S
 
 
@@ -100,7 +101,7 @@ def try_fault(rig: Rig, scenario: Scenario) -> Outcome:
     if not any(words in told.lower() for words in scenario.told):
         problems.append(f"told {told!r}, not {' or '.join(map(repr, scenario.told))}")
     problems += _session_problems(rig, begun_s, is_over=not scenario.screen)
-    problems += scenario.verify(rig)
+    problems += scenario.verify(rig, begun_s)
     rig.log.read()
     hold, end_s = rig.log.first("HOLD", "1", begun_s), rig.log.end_after(begun_s)
     if scenario.expected is Expected.MOVES_NOT:

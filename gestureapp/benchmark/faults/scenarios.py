@@ -194,6 +194,13 @@ def _pause_guardian(rig: Rig) -> float:
     return _signal(rig.application.guardian_pid, signal.SIGSTOP)
 
 
+def _holds_first(rig: Rig, begun_s: float) -> list[str]:
+    """A guardian that follows another one, on a connection of its own, asks for nothing before."""
+    before = max(r.connection for r in rig.log.requests if r.last_s < begun_s)
+    first = next((r.name for r in rig.log.requests if r.connection > before), "nothing")
+    return [] if first == "HOLD" else [f"the new guardian asks for {first} first"]
+
+
 def _signal(pid: int, number: signal.Signals) -> float:
     begun_s = monotonic()
     os.kill(pid, number)
@@ -226,7 +233,7 @@ def _empty_disk(rig: Rig) -> None:
     rig.application.limit_files(None)
 
 
-def _is_record_whole(rig: Rig) -> list[str]:
+def _is_record_whole(rig: Rig, _: float) -> list[str]:
     """With room on the disk again, the next file continues where the last confirmed one ends."""
     _empty_disk(rig)
     if not rig.wait(lambda s: s["is_recording"], DISK_WAIT_S):
@@ -335,12 +342,13 @@ SCENARIOS = (
     ),
     Scenario(
         "guardian-kill", "guardian killed", "its connections end; another one holds first",
-        300 + ANSWER_MS, _kill_guardian, ("guardian",),
+        300 + ANSWER_MS, _kill_guardian, ("guardian process has ended",), verify=_holds_first,
     ),
     Scenario(
         "guardian-pause", "guardian stopped (SIGSTOP)",
         f"silent for {SILENT_TICKS * CONTROL_TICK_S:.1f} s; another one holds first",
-        1000 * SILENT_TICKS * CONTROL_TICK_S + 500, _pause_guardian, ("guardian",),
+        1000 * SILENT_TICKS * CONTROL_TICK_S + 500, _pause_guardian,
+        ("guardian process is silent",), verify=_holds_first,
     ),
 )  # fmt: skip
 
