@@ -11,6 +11,7 @@ import platformdirs
 
 from gestureapp import __version__
 from gestureapp.cell.engine import Cell
+from gestureapp.cell.last_time import LastTime, find_last_time
 from gestureapp.cell.snapshot import RecordingView
 from gestureapp.clock import monotonic
 from gestureapp.config import Settings
@@ -31,12 +32,14 @@ class RunningCell:
         operator: The virtual operator of a demo, or None.
         recorder: Writes the session.
         demo: The emulators of a demo, or None.
+        last_time: What the guardian did when no application could show it, or None.
     """
 
     cell: Cell
     operator: OperatorClient | None
     recorder: SessionWriter
     demo: DemoCell | None
+    last_time: LastTime | None
 
 
 def data_folder(chosen: Path | None = None) -> Path:
@@ -87,11 +90,14 @@ def running_cell(
         recorder.start()
         opened.callback(recorder.stop)
         log_file = folder / "guardian.log"
+        last_time = find_last_time(log_file)
         cell = Cell(settings, recorder.put, lambda: _view_of(recorder), log_file, time.time)
         opened.callback(cell.shutdown)
         cell.start()
+        if last_time is not None:
+            cell.tell(last_time.text)
         operator = emulators.operator if emulators is not None else None
-        yield RunningCell(cell, operator, recorder, emulators)
+        yield RunningCell(cell, operator, recorder, emulators, last_time)
 
 
 def _view_of(recorder: SessionWriter) -> RecordingView:

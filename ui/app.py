@@ -23,6 +23,7 @@ from PySide6.QtGui import QGuiApplication
 from PySide6.QtWidgets import QApplication
 
 from gestureapp.cell.controls import CellControls
+from gestureapp.cell.last_time import LastTime
 from gestureapp.clock import monotonic
 from gestureapp.window_port import Driver
 from gestureapp.worker import Worker
@@ -52,6 +53,7 @@ def run_window(
     virtual: VirtualOperator | None = None,
     exit_after_s: float | None = None,
     driver: Driver | None = None,
+    last_time: LastTime | None = None,
 ) -> int:
     """Show the cell until the window is closed; then the cell is shut down.
 
@@ -63,6 +65,7 @@ def run_window(
         virtual: Moves the emulated arms; its panel is shown when it is given.
         exit_after_s: Close the window by itself after this time, for unattended runs.
         driver: Uses the window as a person would, in a thread of its own.
+        last_time: What the guardian did when no window could show it.
 
     Returns:
         The exit code: 0.
@@ -75,6 +78,8 @@ def run_window(
         try:
             with _hooks(cell, window):
                 _fit(window)
+                if last_time is not None:
+                    window.tell_last_time(last_time)
                 if exit_after_s is not None:
                     QTimer.singleShot(round(exit_after_s * 1000), window, window.close)
                 window.installEventFilter(_FirstPaint(window))

@@ -18,6 +18,7 @@ from PySide6.QtWidgets import (
 )
 
 from gestureapp.cell.controls import CellControls
+from gestureapp.cell.last_time import LastTime
 from gestureapp.cell.snapshot import CellState, Snapshot
 from gestureapp.clock import Clock, monotonic
 from ui.alarm_bars import AlarmBars
@@ -25,6 +26,7 @@ from ui.arm_plot import ArmPlot
 from ui.blocker_list import BlockerList
 from ui.event_list import EventList
 from ui.gesture_panel import GesturePanel
+from ui.last_time_bar import LastTimeBar
 from ui.motion_panel import MotionPanel
 from ui.robot_view import FieldView
 from ui.state_panel import StatePanel
@@ -70,6 +72,7 @@ class MainWindow(QMainWindow):
         self._cell = cell
         self._strip = StatusStrip()
         self._bars = AlarmBars(clock)
+        self._last_time = LastTimeBar()
         self._state = StatePanel(clock)
         self._blockers = BlockerList()
         self._motion = MotionPanel()
@@ -112,6 +115,10 @@ class MainWindow(QMainWindow):
     def stop(self) -> None:
         """STOP was pressed, by mouse or key."""
         self._cell.stop()
+
+    def tell_last_time(self, last_time: LastTime) -> None:
+        """Show what the guardian did when no window could, until it is put away."""
+        self._last_time.tell(last_time.text, last_time.note_shown)
 
     def closeEvent(self, event: QCloseEvent) -> None:
         """Stop, disarm, shut down; then close, whatever came of it."""
@@ -209,6 +216,7 @@ class MainWindow(QMainWindow):
         column_of_all.setSpacing(6)
         column_of_all.addWidget(self._strip)
         column_of_all.addWidget(self._bars)
+        column_of_all.addWidget(self._last_time)
         column_of_all.addLayout(body, 1)
         self.setCentralWidget(whole)
         self.setMinimumSize(QSize(*_LEAST).boundedTo(self.screen().availableSize()))

@@ -1,8 +1,7 @@
 """The control thread's work: samples, messages and presses in, machine steps and their effects out.
 
 ``handle`` and ``tick`` do all of it and take the time as an argument, so that tests drive them
-without a thread; ``run`` is the thread around them. Nothing here waits for the window, the disk or
-training.
+without a thread; ``run`` is the thread. Nothing here waits for window, disk or training.
 """
 
 import queue
@@ -47,8 +46,7 @@ RESTART_S = 0.2
 """Between two attempts to start a guardian."""
 SILENT_TICKS = 150
 """A guardian with work to do is heard every 0.25 s, and after 1.0 s at the latest behind a slow
-controller. Counted in our own ticks, so that a stall of this process is not taken for its
-silence."""
+controller. Counted in our own ticks: a stall of this process is not taken for its silence."""
 KEPT_EVENTS = 50
 
 
@@ -152,6 +150,8 @@ class Control:
                 self._send(m.ServoOn() if item.is_on else m.ServoOff())
             case e.GuardianGone():
                 self._guardian_gone(item)
+            case e.Say():
+                self._say(item)
             case _:
                 self._step(item)
 
@@ -339,8 +339,7 @@ class Control:
                 self._say(effect)
 
     def _say(self, said: e.Say) -> None:
-        line = EventLine(self._now_s, self._wall_clock(), said.text, said.is_alarm)
-        self._lines.append(line)
+        self._lines.append(EventLine(self._now_s, self._wall_clock(), said.text, said.is_alarm))
         fields: dict[str, Json] = {"text": said.text, "is_alarm": said.is_alarm}
         self._record(Record(Topic.EVENT, self._now_s, fields))
 

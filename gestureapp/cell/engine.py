@@ -141,6 +141,10 @@ class Cell:
         """The operator asks for servo power to go off."""
         self._control.put(ServoAsked(is_on=False))
 
+    def tell(self, text: str) -> None:
+        """One line for the cell's story that a person should see."""
+        self._control.put(e.Say(text, is_alarm=True))
+
     def shutdown(self) -> None:
         """End everything; what may still move is stopped by the guardian first. Idempotent."""
         if self._is_closing:

@@ -46,4 +46,4 @@ class ServoAsked:
     is_on: bool
 
 
-Input = SampleCame | SensorTold | GuardianSaid | ServoAsked | e.Event
+Input = SampleCame | SensorTold | GuardianSaid | ServoAsked | e.Say | e.Event

@@ -14,10 +14,14 @@ import selectors
 import signal
 import socket
 import sys
+import time
+from collections.abc import Callable
 from dataclasses import dataclass
 
 from gestureapp.robot import messages as m
+from gestureapp.robot.acts import Act, Did, act_of
 from gestureapp.robot.clock import monotonic
+from gestureapp.robot.guardian_log import open_log
 from gestureapp.robot.lock import AddressLock
 from gestureapp.robot.outputs import DropRobot, ToApp, ToRobot
 from gestureapp.robot.supervisor import Supervisor
@@ -49,7 +53,9 @@ class _Peer:
 class Guardian:
     """The loop around the supervisor. Owns every socket of the process."""
 
-    def __init__(self, start: m.Start, listener: socket.socket) -> None:
+    def __init__(
+        self, start: m.Start, listener: socket.socket, write_log: Callable[[], None] = lambda: None
+    ) -> None:
         self._start = start
         self._supervisor = Supervisor(start.limits)
         self._selector = selectors.DefaultSelector()
@@ -65,6 +71,10 @@ class Guardian:
         self._was_greeted = False
         self._was_told = False
         self._gone_s: float | None = None
+        self._seen_s = float("-inf")
+        self._could_move = False
+        self._run = f"{os.getpid()} {time.time():.3f}"
+        self._write_log = write_log
         self._is_leaving = False
         self.is_told_to_end = False
 
@@ -83,6 +93,7 @@ class Guardian:
 
     def _serve(self) -> int:
         has_failed = False
+        self._note(Did.STARTED, f"for {self._start.host}:{self._start.port}")
         while not self._is_over(monotonic()):
             try:
                 self._turn()
@@ -92,10 +103,13 @@ class Guardian:
                 has_failed = True
                 log.exception("the guardian failed; it stops the robot and ends")
                 self._application_gone(f"the guardian failed: {error}")
-        log.info("ends")
+        self._note(Did.ENDED)
+        self._write_log()
         return int(has_failed)
 
     def _turn(self) -> None:
+        self._write_log()  # now that what had to go out is out
+        self._could_move = self._supervisor.may_move
         now_s = monotonic()
         wait_s = max(0.0, self._supervisor.next_due_s(now_s) - now_s)
         ready = self._selector.select(wait_s)
@@ -164,6 +178,8 @@ class Guardian:
             self._is_leaving = True
         elif peer.role is m.Role.CONTROL or isinstance(message, m.Stop):
             self._was_told = True
+            if isinstance(message, m.Beat):
+                self._seen_s = min(message.control_s, message.gui_s)
             self._supervisor.message(message, now_s)
             self._flush()
 
@@ -183,9 +199,10 @@ class Guardian:
             return
         now_s = monotonic()
         self._gone_s = now_s
-        if self._is_leaving and not self._supervisor.may_move:
+        is_orderly = self._is_leaving and not self._supervisor.may_move
+        self._note(Did.GONE, how, could_move=not is_orderly, seen_s=self._seen_s)
+        if is_orderly:
             return
-        log.warning("application gone: %s", how)
         self._supervisor.stop(StopReason.APPLICATION_GONE, f"application gone: {how}", now_s)
         self._supervisor.tick(now_s)
         self._flush()
@@ -310,8 +327,9 @@ class Guardian:
             self._robot_gone("the controller takes no bytes")
 
     def _tell(self, message: m.FromGuardian) -> None:
-        if isinstance(message, m.StopAsked | m.StopConfirmed | m.StopUnconfirmed):
-            log.warning("%s", message)
+        act = act_of(message, self._run, time.time(), self._could_move)
+        if act is not None:
+            log.warning("%s", act.line)
         line = m.encode(message)
         for peer in self._peers.values():
             if peer.role is m.Role.CONTROL and len(peer.unsent) < BACKLOG_LIMIT:
@@ -325,6 +343,12 @@ class Guardian:
         writes = selectors.EVENT_WRITE if peer.unsent else 0
         self._selector.modify(peer.sock, selectors.EVENT_READ | writes, peer)
 
+    def _note(
+        self, did: Did, text: str = "", *, could_move: bool = False, seen_s: float = 0.0
+    ) -> None:
+        act = Act(did, self._run, time.time(), monotonic(), text, "", could_move, max(seen_s, 0.0))
+        log.info("%s", act.line)
+
 
 def main() -> int:
     """The process: read ``Start``, say where it listens, serve. Returns the exit code."""
@@ -333,24 +357,14 @@ def main() -> int:
     if not isinstance(start, m.Start):
         sys.stderr.write("guardian: it is started by the application, not by hand\n")
         return 2
-    _open_log(start.log)
+    write_log = open_log(start.log)
     with socket.create_server(("127.0.0.1", 0)) as listener:
         sys.stdout.buffer.write(m.encode(m.Listening(listener.getsockname()[1])))
         sys.stdout.buffer.flush()
-        guardian = Guardian(start, listener)
+        guardian = Guardian(start, listener, write_log)
 
         def told_to_end(_signal: int, _frame: object) -> None:
             guardian.is_told_to_end = True
 
         signal.signal(signal.SIGTERM, told_to_end)
         return guardian.run()
-
-
-def _open_log(path: str) -> None:
-    """A guardian that cannot write its log still stops the robot."""
-    form = "%(asctime)s %(levelname)s %(message)s"
-    if path:
-        try:
-            logging.basicConfig(filename=path, level=logging.INFO, format=form)
-        except OSError as error:
-            log.warning("no guardian log: %s", error)

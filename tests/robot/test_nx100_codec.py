@@ -303,7 +303,7 @@ def test_every_bit_of_the_status_means_what_the_manual_says(data_1, data_2, name
 
 
 FOLDER = Path(nx100.__file__).parent
-SHELL = {"guardian", "lock", "clock"}
+SHELL = {"guardian", "guardian_log", "lock", "clock"}
 PURE = sorted({path.stem for path in FOLDER.glob("*.py")} - SHELL)
 IMPURE = {"socket", "serial", "threading", "subprocess", "select", "selectors", "time", "os"}
 

@@ -9,6 +9,7 @@ import pytest
 from gestureapp.children import child_command, child_environment
 from gestureapp.clock import monotonic
 from gestureapp.robot import messages as m
+from gestureapp.robot.acts import Did, find_unseen, read_act
 from gestureapp.robot.guardian import Guardian
 from gestureapp.robot.values import StopReason
 
@@ -128,9 +129,14 @@ def test_what_it_did_stands_in_its_log(start, tmp_path):
     assert guardian.ended() == 0
 
     text = log.read_text()
-    assert "application gone: its window connection ended" in text
-    assert "StopConfirmed" in text
-    assert text.rstrip().endswith("ends")
+    acts = [act for line in text.splitlines() if (act := read_act(line)) is not None]
+    assert [act.did for act in acts] == [
+        *(Did.STARTED, Did.GONE, Did.STOPPING, Did.STANDS, Did.ENDED)
+    ]
+    unseen = find_unseen(text.splitlines())
+    assert unseen is not None
+    assert unseen.stop.text == "application gone: its window connection ended"
+    assert unseen.outcome.startswith("standstill confirmed after 0.")
 
 
 def test_a_log_that_cannot_be_written_keeps_no_guardian_from_its_work(start, tmp_path):

@@ -1,0 +1,153 @@
+"""A stop that no application could show is told at the next start, once."""
+
+import os
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+
+from gestureapp.cell.last_time import find_last_time
+from gestureapp.cell.snapshot import CellState
+from gestureapp.children import child_environment
+from gestureapp.robot.acts import Act, Did
+from gestureapp.running import running_cell
+from tests.cell.bench import Bench
+from tests.cell.conftest import wait_until
+
+APPLICATION = """
+import sys, time
+from pathlib import Path
+from gestureapp.cell.snapshot import CellState
+from gestureapp.running import running_cell
+from gestureapp.settings_file import load_settings
+settings, found = load_settings([Path(sys.argv[1])])
+assert not found, found
+with running_cell(settings, Path(sys.argv[2])) as running:
+    is_told = False
+    while True:
+        running.cell.gui_tick()
+        snapshot = running.cell.snapshot()
+        if snapshot.can_arm and not is_told:
+            running.cell.arm()
+        if snapshot.state is CellState.ARMED and not is_told:
+            is_told = True
+            print("armed", flush=True)
+        time.sleep(0.01)
+"""
+LIMIT_S = 15.0
+STOP = Act(Did.STOPPING, "7", 1.8e9, 100.0, "left sensor silent", "left sensor silent", True)
+GONE = Act(Did.GONE, "7", 1.8e9, 110.0, "its window connection ended", could_move=True)
+STANDS = Act(Did.STANDS, "7", 1.8e9, 0.0, seen_s=0.12)
+
+
+def write(path: Path, *lines: str | Act) -> None:
+    texts = [f"x WARNING {line.line}" if isinstance(line, Act) else line for line in lines]
+    path.write_text("".join(f"{text}\n" for text in texts), encoding="utf-8")
+
+
+def test_it_is_one_line_with_cause_time_outcome_and_the_log(tmp_path: Path):
+    log = tmp_path / "guardian.log"
+    write(log, "rubbish", STOP, STANDS, GONE, '{"cut off')
+    told = find_last_time(log)
+    assert told is not None
+    when = time.strftime("%H:%M:%S on %d %B %Y", time.localtime(1.8e9))
+    assert told.text == (
+        f"Last time the guardian stopped the robot: left sensor silent, at {when}; "
+        f"standstill confirmed after 0.12 s ({log})"
+    )
+
+
+def test_what_was_shown_is_not_told_again_and_a_new_stop_is(tmp_path: Path):
+    log = tmp_path / "guardian.log"
+    write(log, STOP, STANDS, GONE)
+    first, again = find_last_time(log), find_last_time(log)
+    assert first is not None
+    assert first == again
+    first.note_shown()
+    assert find_last_time(log) is None
+    write(log, STOP, GONE)
+    assert find_last_time(log) is not None
+
+
+def test_the_older_log_is_read_as_well(tmp_path: Path):
+    write(tmp_path / "guardian.log.1", STOP, STANDS)
+    write(tmp_path / "guardian.log", GONE)
+    assert find_last_time(tmp_path / "guardian.log") is not None
+
+
+@pytest.mark.parametrize("content", [None, b"", b"\xff\xfe\x00" * 99, b"\t{}\n\t[]\n"])
+def test_a_log_that_is_missing_or_damaged_tells_nothing(tmp_path: Path, content: bytes | None):
+    log = tmp_path / "guardian.log"
+    if content is not None:
+        log.write_bytes(content)
+    assert find_last_time(log) is None
+
+
+def test_a_folder_that_takes_no_file_only_has_it_told_once_more(tmp_path: Path):
+    log = tmp_path / "guardian.log"
+    write(log, STOP, GONE)
+    (tmp_path / "guardian.shown").mkdir()
+    told = find_last_time(log)
+    assert told is not None
+    told.note_shown()
+    assert find_last_time(log) == told
+
+
+def settings_of(bench: Bench, folder: Path) -> Path:
+    s = bench.settings
+    file = folder / "cell.toml"
+    file.write_text(
+        f'schema = 1\n[left]\nport = "{s.left.port}"\n[right]\nport = "{s.right.port}"\n'
+        f'[robot]\nhost = "{s.robot.host}"\nport = {s.robot.port}\n'
+        f'[person]\nname = "Test"\nmodel = "{s.person.model}"\n'
+        "[site]\ntrip_level_s = 0.3\ncontrol_limit_s = 0.5\ngui_limit_s = 1.0\n"
+    )
+    return file
+
+
+@pytest.mark.process
+@pytest.mark.skipif(os.name == "nt", reason="kill -9")
+def test_an_application_killed_while_moving_is_told_of_at_the_next_start(tmp_path: Path):
+    folder = tmp_path / "data"
+    folder.mkdir()
+    with Bench(tmp_path) as bench:
+        bench.until(lambda s: s.robot.is_connected)
+        bench.cell.shutdown()  # the emulators are for the other application
+        program = [
+            sys.executable,
+            "-c",
+            APPLICATION,
+            str(settings_of(bench, tmp_path)),
+            str(folder),
+        ]
+        child = subprocess.Popen(program, stdout=subprocess.PIPE, env=child_environment())
+        try:
+            assert child.stdout is not None
+            bench.operator.left_stop()
+            bench.operator.right_rest()
+            assert child.stdout.readline() == b"armed\n"
+            bench.operator.gesture("X+")
+            assert wait_until(bench.nx100.is_running, LIMIT_S)
+        finally:
+            child.send_signal(signal.SIGKILL)
+            child.wait(LIMIT_S)
+            assert child.stdout is not None
+            child.stdout.close()
+        assert wait_until(lambda: not bench.nx100.is_running(), LIMIT_S)
+        log = folder / "guardian.log"
+        assert wait_until(lambda: '"did": "ended"' in log.read_text(), LIMIT_S)
+
+        with running_cell(bench.settings, folder) as running:
+            told = running.last_time
+            assert told is not None
+            assert "the guardian stopped the robot: application gone: its " in told.text
+            assert "standstill confirmed after 0." in told.text
+            events = lambda: [line.text for line in running.cell.snapshot().events]  # noqa: E731
+            assert wait_until(lambda: told.text in events(), LIMIT_S)
+            assert running.cell.snapshot().state is CellState.NOT_READY
+            told.note_shown()
+        with running_cell(bench.settings, folder) as running:
+            assert running.last_time is None

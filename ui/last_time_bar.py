@@ -1,0 +1,48 @@
+"""A bar that tells what the guardian did when no window could show it; put away by a press."""
+
+from collections.abc import Callable
+
+from PySide6.QtGui import QColor, QPalette, QShowEvent
+from PySide6.QtWidgets import QHBoxLayout, QPushButton, QWidget
+
+from ui.labels import plain
+from ui.theme import TEXT_PX, colours_of, sized
+
+
+class LastTimeBar(QWidget):
+    """Hidden until there is something to tell. GUI thread only."""
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self._on_shown: Callable[[], None] | None = None
+        self._text = plain("lastTimeBar", TEXT_PX)
+        sized(self._text, TEXT_PX, is_bold=True)
+        button = QPushButton("Put away")
+        button.setObjectName("lastTimeAway")
+        button.setAccessibleName("Put away what the guardian did last time")
+        button.clicked.connect(self.hide)
+        layout = QHBoxLayout(self)
+        layout.setContentsMargins(14, 5, 8, 5)
+        layout.addWidget(self._text, 1)
+        layout.addWidget(button)
+        self.setAutoFillBackground(True)
+        self.hide()
+
+    def tell(self, text: str, on_shown: Callable[[], None]) -> None:
+        """Show a line; ``on_shown`` is called once it is on the screen."""
+        self._on_shown = on_shown
+        self._text.setText(text)
+        self._text.setAccessibleName(text)
+        self.show()
+
+    def showEvent(self, event: QShowEvent) -> None:
+        """Take the colours, and say that it is seen."""
+        super().showEvent(event)
+        colours = colours_of(self.window().palette())
+        palette = QPalette(self.palette())
+        palette.setColor(QPalette.ColorRole.Window, QColor(colours.attention))
+        palette.setColor(QPalette.ColorRole.WindowText, QColor(colours.base))
+        self.setPalette(palette)
+        on_shown, self._on_shown = self._on_shown, None
+        if on_shown is not None:
+            on_shown()
