@@ -18,12 +18,12 @@ from gestureapp.simulation.nx100_values import (
     ERROR_BIT,
     LIMIT_ALARM,
     MAX_ALARMS,
-    ONE_CYCLE,
     REMOTE,
     RUNNING,
     SERVO_BIT,
     Code,
     ControllerOptions,
+    Cycle,
     EndReason,
     Hold,
     Mode,
@@ -32,6 +32,7 @@ from gestureapp.simulation.nx100_values import (
     MotionStarted,
     Move,
 )
+from gestureapp.simulation.nx100_variables import Variables
 
 _NOTHING_LEFT = 1e-9
 """Fraction of a path below which a hold has left nothing to go on with."""
@@ -82,6 +83,8 @@ class Controller:
         is_servo_on: Servo power.
         is_remote: Command remote is selected.
         mode: Key position.
+        cycle: How a job would go on; nothing here has jobs.
+        variables: What LOADV has written.
         holds: Who holds the robot.
         alarms: Code and data of up to four alarms, oldest first.
         error: Code and data of the present error, or None.
@@ -93,6 +96,8 @@ class Controller:
         self.is_servo_on = True
         self.is_remote = True
         self.mode = Mode.PLAY
+        self.cycle = Cycle.ONE
+        self.variables = Variables()
         self.holds = Hold.NONE
         self.alarms: list[tuple[int, int]] = []
         self.error: tuple[int, int] | None = None
@@ -168,7 +173,7 @@ class Controller:
         error = ERROR_BIT if self.error is not None else 0
         servo = SERVO_BIT if self.is_servo_on else 0
         return (
-            ONE_CYCLE | running | self.mode.value | remote,
+            self.cycle.value | running | self.mode.value | remote,
             int(self.holds) | alarm | error | servo,
         )
 
@@ -199,16 +204,12 @@ class Controller:
 
     def command_hold(self, is_on: bool, now_s: float) -> Code:
         """HOLD: a decelerated stop on the path, servo stays on; or its release."""
-        if not self.is_remote:
-            return Code.NOT_REMOTE
         self.set_hold(Hold.COMMAND, is_on, now_s)
         return Code.OK
 
     def command_servo(self, is_on: bool, now_s: float) -> Code:
         """SVON: power on after the delay of the options, or off at once with the brakes."""
         self.advance(now_s)
-        if not self.is_remote:
-            return Code.NOT_REMOTE
         if is_on and self.mode is not Mode.PLAY:
             return Code.MODE
         if is_on and self.alarms:
@@ -223,24 +224,18 @@ class Controller:
     def reset(self, now_s: float) -> Code:
         """RESET: clear the alarms. Servo power stays off until SVON."""
         self.advance(now_s)
-        if not self.is_remote:
-            return Code.NOT_REMOTE
         self.alarms.clear()
         return Code.OK
 
     def cancel(self, now_s: float) -> Code:
         """CANCEL: clear the error."""
         self.advance(now_s)
-        if not self.is_remote:
-            return Code.NOT_REMOTE
         self.error = None
         return Code.OK
 
     def write_inputs(self, first: int, values: list[int], now_s: float) -> Code:
         """IOWRITE: set network inputs, one byte per eight contacts; the next byte is 10 higher."""
         self.advance(now_s)
-        if not self.is_remote:
-            return Code.NOT_REMOTE
         addresses = [first + 10 * i for i in range(len(values))]
         if any(address not in CONTACTS or address + 7 not in CONTACTS for address in addresses):
             return Code.NO_ACCESS

@@ -1,6 +1,6 @@
 """What the emulated NX100 answers: a request's operands checked, done on the controller. Pure.
 
-Commands that an NX100 has and this emulator does not (jobs, variables, MOVL, MODE, files) are not
+Commands that an NX100 has and this emulator does not (jobs, files, MOVL and MOVJ, HLOCK) are not
 known here and get the NG of an unknown command at their header, as an option that is not installed.
 """
 
@@ -12,7 +12,7 @@ from gestureapp.robot import hp6
 from gestureapp.robot.values import Pose, PoseIncrement
 from gestureapp.simulation.controller import Controller
 from gestureapp.simulation.nx100_lines import Request
-from gestureapp.simulation.nx100_values import CONTACTS, Code, Move
+from gestureapp.simulation.nx100_values import READABLE, Code, Cycle, Mode, Move
 from gestureapp.simulation.pulses import pulses
 
 IMOV_FIELDS = 17
@@ -20,6 +20,7 @@ OPERAND_MAX_CHARS = 32
 SPEEDS_MM_S = (0.1, 1500.0)
 SPEEDS_DEG_S = (0.1, 180.0)
 """Source: INFORM's limits for V and VR, from memory."""
+MESSAGE_MAX_CHARS = 30
 TOOL_MAX = 23
 FRAME_MAX = 25
 """User frame 24. The tool frame's code on an NX100 is not known, so it is refused."""
@@ -59,6 +60,8 @@ def execute(request: Request, controller: Controller, now_s: float) -> Answer:
         controller: Changed by it.
         now_s: When its last byte arrived; for a command that only reads, when it is answered.
     """
+    if request.name in NEEDS_REMOTE and not controller.is_remote:
+        return refusal(request.name, Code.NOT_REMOTE)
     result = _COMMANDS[request.name](_operands(request.data), controller, now_s)
     if isinstance(result, str):
         return Answer(result, has_data=True)
@@ -172,10 +175,56 @@ def _ioread(operands: list[str], controller: Controller, now_s: float) -> Code |
     if first % 10 or n_contacts % 8 or not 0 < n_contacts <= 1024:
         return Code.OPERAND_VALUE
     addresses = [first + 10 * i for i in range(n_contacts // 8)]
-    if any(address not in CONTACTS for address in addresses):
+    if not all(any(address in area for area in READABLE) for address in addresses):
         return Code.NO_ACCESS
     controller.advance(now_s)
     return ",".join(str(controller.inputs.get(address, 0)) for address in addresses)
+
+
+def _mode(operands: list[str], controller: Controller, now_s: float) -> Code | str:
+    numbers = _wholes(operands, 1)
+    if isinstance(numbers, Code):
+        return numbers
+    mode = {1: Mode.TEACH, 2: Mode.PLAY}.get(numbers[0])
+    if mode is None:
+        return Code.OPERAND_VALUE
+    if not controller.options.allows_mode_switch:
+        return Code.MODE
+    controller.set_mode(mode, now_s)
+    return Code.OK
+
+
+def _cycle(operands: list[str], controller: Controller, now_s: float) -> Code | str:
+    numbers = _wholes(operands, 1)
+    if isinstance(numbers, Code):
+        return numbers
+    cycle = {1: Cycle.STEP, 2: Cycle.ONE, 3: Cycle.AUTO}.get(numbers[0])
+    if cycle is None:
+        return Code.OPERAND_VALUE
+    controller.cycle = cycle
+    return Code.OK
+
+
+def _mdsp(operands: list[str], controller: Controller, now_s: float) -> Code | str:
+    if len(",".join(operands)) > MESSAGE_MAX_CHARS:
+        return Code.OPERAND_LENGTH
+    return Code.OK
+
+
+def _loadv(operands: list[str], controller: Controller, now_s: float) -> Code | str:
+    if len(operands) < 3:
+        return Code.OPERAND_COUNT
+    numbers = _wholes(operands[:2], 2)
+    if isinstance(numbers, Code):
+        return numbers
+    return controller.variables.load(numbers[0], numbers[1], ",".join(operands[2:]))
+
+
+def _savev(operands: list[str], controller: Controller, now_s: float) -> Code | str:
+    numbers = _wholes(operands, 2)
+    if isinstance(numbers, Code):
+        return numbers
+    return controller.variables.save(numbers[0], numbers[1])
 
 
 _COMMANDS: dict[str, _Handler] = {
@@ -190,10 +239,18 @@ _COMMANDS: dict[str, _Handler] = {
     "CANCEL": _cancel,
     "IMOV": _imov,
     "IOWRITE": _iowrite,
+    "MODE": _mode,
+    "CYCLE": _cycle,
+    "MDSP": _mdsp,
+    "LOADV": _loadv,
+    "SAVEV": _savev,
 }
 NAMES = frozenset(_COMMANDS)
-READS = frozenset({"RSTATS", "RALARM", "RPOSJ", "RPOSC", "IOREAD"})
+READS = frozenset({"RSTATS", "RALARM", "RPOSJ", "RPOSC", "IOREAD", "SAVEV"})
 """Change nothing; they read the moment they are answered."""
+NEEDS_REMOTE = NAMES - READS | {"SAVEV"}
+"""Refused without command remote, before their operands are looked at. Reading a variable: the
+stricter of two contradicting sources."""
 
 
 def _operands(data: str) -> list[str]:

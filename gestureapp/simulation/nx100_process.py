@@ -78,6 +78,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add("--tool", type=_tool, default=cell.tool, metavar="N", help="tool selected (%(default)s)")
     add("--tool-mm", type=_offset, default=cell.tool_mm, metavar="X,Y,Z", help="its point")
     add("--resume-after-hold", action="store_true", help="HOLD 0 goes on with the move")
+    add("--allow-mode", action="store_true", help="MODE is taken over the network")
     add("--accel-mm-s2", type=float, default=cell.accel_mm_s2, metavar="A")
     add("--accel-deg-s2", type=float, default=cell.accel_deg_s2, metavar="A")
     add("--start-delay-ms", type=float, default=1000.0 * cell.start_delay_s, metavar="MS")
@@ -110,6 +111,7 @@ def options_of(arguments: argparse.Namespace) -> Nx100Options:
         accel_mm_s2=arguments.accel_mm_s2,
         accel_deg_s2=arguments.accel_deg_s2,
         servo_on_delay_s=arguments.servo_on_delay_ms / 1000.0,
+        allows_mode_switch=arguments.allow_mode,
         resumes_after_hold=arguments.resume_after_hold,
         ladder_s=None if arguments.ladder_ms is None else arguments.ladder_ms / 1000.0,
     )

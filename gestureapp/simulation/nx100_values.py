@@ -24,6 +24,7 @@ class Code(IntEnum):
     MODE = 2080
     NOT_REMOTE = 2100
     NO_ACCESS = 2110
+    NOT_LOADABLE = 2120
     USER_FRAME = 3350
     DATA_RANGE = 5200
 
@@ -44,6 +45,14 @@ class Mode(Enum):
     PLAY = 0x40
 
 
+class Cycle(Enum):
+    """How a job would go on, as RSTATS Data-1 shows it."""
+
+    STEP = 0x01
+    ONE = 0x02
+    AUTO = 0x04
+
+
 class EndReason(Enum):
     """Why a move ended."""
 
@@ -54,7 +63,7 @@ class EndReason(Enum):
     MODE = "mode"
 
 
-ONE_CYCLE, RUNNING, REMOTE = 0x02, 0x08, 0x80
+RUNNING, REMOTE = 0x08, 0x80
 """RSTATS Data-1."""
 ALARM_BIT, ERROR_BIT, SERVO_BIT = 0x10, 0x20, 0x40
 """RSTATS Data-2."""
@@ -62,6 +71,15 @@ LIMIT_ALARM = 4416
 """Pulse limit. From memory of the DX100's list; the NX100's was not available."""
 CONTACTS = range(22010, 23288)
 """Network inputs, the only ones that can be written. Source: an NX100 client's notes."""
+READABLE = (
+    *(range(first, first + 2560) for first in (10, 10010, 20010, 30010, 50010, 80010)),
+    CONTACTS,
+    range(32010, 33288),
+    range(70010, 80000),
+    range(82010, 82208),
+)
+"""Contacts that can be read. First numbers from clients' notes, mostly on later controllers; the
+ends are ours. A read of 50010 was recorded on an NX100."""
 MAX_ALARMS = 4
 START_POSE = Pose(800.0, 0.0, 300.0, 180.0, 0.0, 0.0)
 """In front of the robot, the tool pointing down."""
@@ -92,6 +110,7 @@ class ControllerOptions:
         tool: Number of the tool selected.
         tool_mm: Tool centre point seen from the flange, for all tools.
         resumes_after_hold: Releasing a hold goes on with the rest of the move. Documented nowhere.
+        allows_mode_switch: MODE is taken over the network (a setting of the controller).
         servo_on_delay_s: How long SVON 1 takes.
         user_frames: Taught user frames by number 1 to 24, as poses in the robot frame.
         ladder_s: Ladder timer on the first network input: external hold when it does not change for
@@ -109,6 +128,7 @@ class ControllerOptions:
     tool: int = 0
     tool_mm: tuple[float, float, float] = (0.0, 0.0, 0.0)
     resumes_after_hold: bool = False
+    allows_mode_switch: bool = False
     servo_on_delay_s: float = 0.0
     user_frames: Mapping[int, Pose] = field(default_factory=dict)
     ladder_s: float | None = None

@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 
 from gestureapp.robot.values import Pose
 from gestureapp.simulation.controller import Controller
-from gestureapp.simulation.nx100_commands import NAMES, execute
+from gestureapp.simulation.nx100_commands import NAMES, NEEDS_REMOTE, execute
 from gestureapp.simulation.nx100_conversation import Conversation
 from gestureapp.simulation.nx100_lines import Bad, Refused, Request, RequestReader
 from gestureapp.simulation.nx100_options import Fault, FaultKind, Nx100Options, Segments
@@ -193,7 +193,20 @@ def changed(i, word):
         ("IOWRITE", "22010,8", 1011),
         ("IOREAD", "22010,0", 1012),
         ("IOREAD", "22010,1032", 1012),
-        ("IOREAD", "50010,24", 2110),
+        ("IOREAD", "90010,8", 2110),
+        ("MODE", "3", 1012),
+        ("MODE", "1", 2080),
+        ("CYCLE", "0", 1012),
+        ("MDSP", "x" * 31, 1013),
+        ("LOADV", "0,1", 1011),
+        ("LOADV", "0,1,256", 5200),
+        ("LOADV", "1,1,-32769", 5200),
+        ("LOADV", "2,100,0", 1012),
+        ("LOADV", "7,0," + "x" * 17, 1013),
+        ("LOADV", "3,0,nan", 5200),
+        ("LOADV", "4,0,1,0,0,0,0,0,0,0,0,0", 2120),
+        ("LOADV", "9,0,1", 1012),
+        ("SAVEV", "0", 1011),
         ("RSTATS", "1", 1011),
         ("RESET", "1", 1011),
     ],
@@ -213,6 +226,46 @@ def test_inputs_are_read_as_they_were_written():
     assert talk.asks("IOREAD", "22010,24") == b"5,255,0\r"
 
 
+def test_other_contacts_are_read_as_off():
+    """A read of three bytes from 50010 was recorded on an NX100."""
+    assert connected().asks("IOREAD", "50010,24") == b"0,0,0\r"
+
+
+@pytest.mark.parametrize(
+    ("operands", "word"),
+    [
+        ("0,1,255", "255"),
+        ("1,0,-5", "-5"),
+        ("2,1,1234", "1234"),
+        ("3,9,1.5", "1.500"),
+        ("7,99,two, three", "two,three"),
+    ],
+)
+def test_variables_are_read_as_they_were_written(operands, word):
+    talk = connected()
+    name = ",".join(operands.split(",")[:2])
+    assert talk.asks("SAVEV", name) in (b"0\r", b"0.000\r", b"\r")
+    assert talk.asks("LOADV", operands) == b"0000\r\n"
+    assert talk.asks("SAVEV", name) == word.encode() + b"\r"
+
+
+def test_mode_is_switched_over_the_network_where_the_controller_allows_it():
+    talk = connected(cell=ControllerOptions(allows_mode_switch=True))
+    assert talk.asks("MODE", "1") == b"0000\r\n"
+    assert talk.asks("RSTATS") == b"162,64\r"
+    assert talk.asks("IMOV", UP_5) == b"ERROR: IMOV is not successful(2080).\r\n"
+    assert talk.asks("MODE", "2") == b"0000\r\n"
+    assert talk.asks("RSTATS") == b"194,64\r"
+
+
+def test_cycle_shows_in_the_status_and_a_message_is_taken():
+    talk = connected()
+    for cycle, status in (("1", b"193,64\r"), ("3", b"196,64\r"), ("2", b"194,64\r")):
+        assert talk.asks("CYCLE", cycle) == b"0000\r\n"
+        assert talk.asks("RSTATS") == status
+    assert talk.asks("MDSP", "x" * 30) == b"0000\r\n"
+
+
 def test_alarm_is_read_reset_and_its_error_cancelled():
     talk = connected()
     talk.controller.raise_error(2060, 3, talk.now_s)
@@ -224,7 +277,7 @@ def test_alarm_is_read_reset_and_its_error_cancelled():
     assert talk.asks("RSTATS") == b"194,0\r"
 
 
-@pytest.mark.parametrize("name", ["IMOV", "HOLD", "SVON", "RESET", "CANCEL", "IOWRITE"])
+@pytest.mark.parametrize("name", sorted(NEEDS_REMOTE))
 def test_commands_that_change_something_need_remote(name):
     talk = connected()
     talk.controller.set_remote(False, talk.now_s)

@@ -1,10 +1,9 @@
-"""The emulated NX100 on a real socket: an independent client, raw bytes, faults, the log."""
+"""The emulated NX100 on a real socket: raw bytes, faults, the log."""
 
 import json
 import socket
 
 import pytest
-import yrcom
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
@@ -86,58 +85,6 @@ def ask(client, name, data="", n=6):
     assert exactly(client, len(ok)) == ok
     client.sendall(data.encode())
     return exactly(client, n)
-
-
-@pytest.mark.parametrize("segments", [Segments.SEPARATE, Segments.LATE_LF])
-def test_independent_client_does_its_round(segments):
-    with (
-        Nx100Emulator(Nx100Options(segments=segments)) as running,
-        yrcom.YaskawaClient("127.0.0.1", running.port, timeout=LIMIT_S) as client,
-    ):
-        assert client.send_start(keep_alive=-1).startswith("OK: NX Information Server")
-        status = client.read_rstats(persistent=True)
-        assert [word for word, is_on in status.items() if is_on] == [
-            *("one_cycle", "play", "cmd_remote", "servo_on"),
-        ]
-        position = client.read_position_cartesian(1, persistent=True)
-        assert position["X"] == 800.0
-        assert position["Rx"] == 180.0
-        assert len(client.read_position_joint(persistent=True)) == 12
-        assert client.read_alarm(persistent=True) == [0] * 10
-        assert client.send_command("IMOV", len(move()), move()).strip() == "0000"
-        assert running.log.wait_for(lambda e: e.what is What.MOTION_START, LIMIT_S)
-        assert client.hold(True, persistent=True)
-        ended = running.log.wait_for(lambda e: e.what is What.MOTION_END, LIMIT_S)
-        assert ended is not None
-        assert ended.name == "hold"
-        assert client.read_rstats(persistent=True)["hold_cmd"]
-        assert client.hold(False, persistent=True)
-        assert client.servo_on(False, persistent=True)
-        assert client.servo_on(True, persistent=True)
-        assert client.io_write(22010, [1, 2], persistent=True)
-        assert client.io_read(22010, 16, persistent=True) == [1, 2]
-
-
-def test_independent_client_stands_coalesced_answers_where_its_data_comes_between():
-    with (
-        Nx100Emulator(Nx100Options(segments=Segments.COALESCED)) as running,
-        yrcom.YaskawaClient("127.0.0.1", running.port, timeout=LIMIT_S) as client,
-    ):
-        client.send_start(keep_alive=-1)
-        assert client.hold(True, persistent=True)
-        assert client.hold(False, persistent=True)
-        assert client.read_position_cartesian(1, persistent=True)["X"] == 800.0
-        assert client.send_command("IMOV", len(move()), move()).strip() == "0000"
-
-
-def test_independent_client_does_single_transactions(emulator):
-    client = yrcom.YaskawaClient("127.0.0.1", emulator.port, timeout=LIMIT_S)
-    assert client.read_rstats(decode=False) in ([194, 64], "194,64\r")
-    assert client.read_position_cartesian(0, external_axis=True)["Z"] == 300.0
-    assert client.servo_on(False)
-    assert not client.read_rstats()["servo_on"]
-    assert client.reset()
-    assert client.cancel()
 
 
 @pytest.mark.parametrize("segments", list(Segments))
