@@ -1,8 +1,8 @@
 """The emulated NX100 and an independent client, in every segment mode that the client can stand.
 
-It cannot stand single bytes: it takes the letters OK for the whole line, and what is left of that line
-for the answer. Where OK and answer come in one segment it loses the answer, unless its own data has
-to come between.
+It cannot stand single bytes: it takes the letters OK for the whole line, and what is left of that
+line for the answer. Where OK and answer come in one segment it loses the answer, unless its own
+data has to come between.
 """
 
 from dataclasses import replace
