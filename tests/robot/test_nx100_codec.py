@@ -276,7 +276,9 @@ def test_numbers_are_a_status_or_alarms_only_in_the_documented_count(name, numbe
     is_status = name == "RSTATS" and len(numbers) == 2 and max(numbers) <= 255
     assert isinstance(answer, RobotStatus) is is_status
     assert isinstance(answer, Alarms) is (name == "RALARM" and len(numbers) == 10)
-    assert isinstance(answer, Pose) is (name == "RPOSC" and len(numbers) in (8, 14))
+    is_position = name == "RPOSC" and len(numbers) in (8, 14)
+    is_position = is_position and numbers[6] <= 63 and numbers[7] <= 23
+    assert isinstance(answer, Position) is is_position
 
 
 @pytest.mark.parametrize(
