@@ -77,7 +77,7 @@ class StatusStrip(QFrame):
             (self._left, 6),
             (self._right, 6),
             (self._robot, 6),
-            (self._supervision, 6),
+            (self._supervision, 7),
             (self._person, 5),
             (self._model, 8),
             (self._recording, 8),

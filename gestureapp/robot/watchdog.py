@@ -93,6 +93,8 @@ def find_change(
     """
     if status.is_running and not is_commanded and (may_move or may_resume):
         text = "the robot runs without a command of ours; it is held again"
+        if may_resume:
+            text = "the robot went on when its hold was released; it is held again"
         return Cause(StopReason.UNEXPECTED_MOTION, text)
     if not may_move:
         return None

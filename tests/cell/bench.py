@@ -20,7 +20,8 @@ from gestureapp.sensing.values import ArmPosture, Side
 from gestureapp.simulation.demo import MODEL
 from gestureapp.simulation.nx100 import Nx100Emulator
 from gestureapp.simulation.nx100_log import LogEvent, What
-from gestureapp.simulation.nx100_options import Fault
+from gestureapp.simulation.nx100_options import Fault, Nx100Options
+from gestureapp.simulation.nx100_values import ControllerOptions
 from gestureapp.simulation.operator import OperatorClient
 from gestureapp.simulation.operator_plan import Timing
 from gestureapp.simulation.sensor import DEMO_SEED, DEMO_SESSION, SensorEmulator, SensorOptions
@@ -43,11 +44,18 @@ class Bench:
         recorder: Writes the session.
     """
 
-    def __init__(self, folder: Path, is_broken: threading.Event | None = None) -> None:
+    def __init__(
+        self,
+        folder: Path,
+        is_broken: threading.Event | None = None,
+        controller: ControllerOptions | None = None,
+        supervision_input: int = 0,
+    ) -> None:
         """Start it; once ``is_broken`` is set, what the control thread records raises."""
         self._opened = contextlib.ExitStack()
         enter = self._opened.enter_context
-        self.nx100 = enter(Nx100Emulator())
+        options = Nx100Options(controller=controller or ControllerOptions())
+        self.nx100 = enter(Nx100Emulator(options))
         self.sensors = {
             side: enter(SensorEmulator(SensorOptions(side, control_port=0))) for side in Side
         }
@@ -60,7 +68,9 @@ class Bench:
             left=SensorSettings(f"socket://127.0.0.1:{self.sensors[Side.LEFT].port}"),
             right=SensorSettings(f"socket://127.0.0.1:{self.sensors[Side.RIGHT].port}"),
             site=SITE,
-            robot=RobotSettings(host="127.0.0.1", port=self.nx100.port),
+            robot=RobotSettings(
+                host="127.0.0.1", port=self.nx100.port, supervision_input=supervision_input
+            ),
             person=PersonSettings("Test", MODEL),
         )
         self.recorder = SessionWriter(folder, monotonic, time.time, describe(self.settings))

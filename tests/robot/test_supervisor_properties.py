@@ -1,5 +1,7 @@
 """Whatever happens in whatever order: no move without permission, and every stop ends."""
 
+from dataclasses import replace
+
 import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
@@ -9,7 +11,7 @@ from gestureapp.robot.outputs import ToApp, ToRobot
 from gestureapp.robot.values import Direction, StopReason
 
 TICKS = st.tuples(st.just("run"), st.integers(1, 30))
-SAID = st.sampled_from([m.Arm(), m.Arm(), m.Disarm(), m.ServoOn(), m.Bye()])
+SAID = st.sampled_from([m.Arm(), m.Arm(), m.Disarm(), m.ServoOn(), m.ServoOff(), m.Bye()])
 STOPS = st.tuples(st.just("stop"), st.sampled_from(StopReason))
 PROPOSALS = st.tuples(
     st.just("propose"),
@@ -35,7 +37,7 @@ TIMES = st.tuples(
 )
 REFUSALS = st.tuples(
     st.sampled_from(["refuses", "takes", "ignores"]),
-    st.sampled_from(["HOLD", "HOLD 0", "SVON", "IMOV", "RSTATS", "RPOSC"]),
+    st.sampled_from(["HOLD", "HOLD 0", "SVON", "IMOV", "RSTATS", "RPOSC", "IOWRITE"]),
 )
 BITS = st.tuples(st.just("bits"), st.sampled_from([0x08, 0x20, 0x80]), st.sampled_from([0, 2, 16]))
 BYTES = st.tuples(
@@ -149,11 +151,11 @@ def repair(cell):
 
 @pytest.mark.filterwarnings("error")
 @settings(max_examples=120, deadline=None, suppress_health_check=[HealthCheck.too_slow])
-@given(ACTIONS)
+@given(ACTIONS, st.sampled_from([0, 22010]))
 def test_no_order_of_events_moves_the_robot_without_permission_or_leaves_a_stop_open(
-    new_cell, actions
+    new_cell, limits, actions, supervision_input
 ):
-    cell = new_cell()
+    cell = new_cell(limits=replace(limits, supervision_input=supervision_input))
     for action in actions:
         carry_out(cell, action)
         for _, data, is_armed, latch in cell.moves() + cell.payloads():
