@@ -15,6 +15,7 @@ from PySide6.QtDBus import (
     QDBusUnixFileDescriptor,
     QDBusVirtualObject,
 )
+from PySide6.QtWidgets import QWidget
 
 from gestureapp.cell.snapshot import CellState
 from tests.cell.bench import Bench
@@ -25,6 +26,8 @@ NEEDS_BUS = pytest.mark.skipif(shutil.which("dbus-daemon") is None, reason="no d
 SESSION = f"{LOGIND}.Session"
 OURS, ANOTHERS = f"{LOGIND_PATH}/session/_312", f"{LOGIND_PATH}/session/c3"
 LIMIT_MS = 6000
+KEPT = []
+"""Widgets that nobody else holds."""
 
 
 class Logind(QDBusVirtualObject):
@@ -227,6 +230,19 @@ def fail():
     raise RuntimeError("broken by the test")
 
 
+class Broken(QWidget):
+    """Fails to paint itself, once; then it is gone."""
+
+    def paintEvent(self, event):
+        QTimer.singleShot(0, self.close)
+        fail()
+
+
+def fail_in_paint():
+    KEPT.append(Broken())
+    KEPT[-1].show()
+
+
 def fail_in_a_thread():
     thread = threading.Thread(target=fail)
     thread.start()
@@ -235,7 +251,9 @@ def fail_in_a_thread():
 
 @pytest.mark.process
 @pytest.mark.logs_errors
-@pytest.mark.parametrize("fault", [fail, fail_in_a_thread], ids=["slot", "thread"])
+@pytest.mark.parametrize(
+    "fault", [fail, fail_in_paint, fail_in_a_thread], ids=["slot", "paint", "thread"]
+)
 def test_an_error_nobody_handled_stops_a_moving_robot(qapp, tmp_path, fault):
     seen = []
     with Bench(tmp_path) as bench:

@@ -11,7 +11,9 @@ from gestureapp.clock import monotonic
 from gestureapp.robot import messages as m
 from gestureapp.robot.acts import Did, find_unseen, read_act
 from gestureapp.robot.guardian import Guardian
+from gestureapp.robot.guardian_log import MOST_BYTES
 from gestureapp.robot.values import StopReason
+from gestureapp.simulation.nx100_options import Fault, FaultKind
 
 pytestmark = pytest.mark.process
 
@@ -137,6 +139,43 @@ def test_what_it_did_stands_in_its_log(start, tmp_path):
     assert unseen is not None
     assert unseen.stop.text == "application gone: its window connection ended"
     assert unseen.outcome.startswith("standstill confirmed after 0.")
+
+
+def test_a_log_that_has_grown_is_kept_once_and_begun_anew(start, tmp_path):
+    started, application = start
+    log, old = tmp_path / "guardian.log", tmp_path / "guardian.log.1"
+    log.write_text("an old line\n" * (MOST_BYTES // 12))
+    old.write_text("an older file")
+    _, guardian = started(log=log)
+    app = application(guardian)
+    app.wait_for(m.StatusReport)
+    app.say(m.Bye())
+    app.control.shutdown(socket.SHUT_WR)
+    assert guardian.ended() == 0
+
+    assert old.read_text().startswith("an old line\n")
+    assert log.stat().st_size < 5000
+    assert "ended" in log.read_text()
+
+
+def test_nobody_inherits_the_permission_of_an_application_that_is_gone(start):
+    started, application = start
+    emulator, guardian = started()
+    first = application(guardian)
+    first.move(emulator)
+    emulator.fault(Fault(FaultKind.SILENT))
+    first.close()
+    second = application(guardian)  # it even knows the token
+    second.say(m.Arm())
+    second.wait_for(m.ArmRefused)
+    emulator.fault(Fault())
+    second.wait_for(m.StopConfirmed)
+    stood_s = monotonic()
+
+    assert guardian.ended() == 0
+    print(f"ended {(monotonic() - stood_s) * 1000:.0f} ms after the standstill")  # noqa: T201
+    assert second.heard(m.Armed) == []
+    assert len(emulator.log.requests("IMOV")) == 1
 
 
 def test_a_log_that_cannot_be_written_keeps_no_guardian_from_its_work(start, tmp_path):
