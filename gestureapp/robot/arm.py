@@ -110,18 +110,20 @@ def reach_along(
         length: As far as the field allows; mm, or degrees of a rotation.
         limits: Of the arm.
     """
-    stride, fine = (STEP_DEG, FINE_DEG) if direction.is_rotation else (STEP_MM, FINE_MM)
+    step, fine = (STEP_DEG, FINE_DEG) if direction.is_rotation else (STEP_MM, FINE_MM)
     walk = _Walk(position, direction, limits)
-    gone = 0.0
+    gone, stride, doubtful = 0.0, step, math.inf
     while gone < length:
         ahead = min(gone + stride, length)
         failed = walk.go(ahead)
         if failed is None:
             gone = ahead
+            if gone >= doubtful:  # a joint only turned fast there
+                stride, doubtful = step, math.inf
         elif ahead - gone <= fine:
             return Reach(gone, failed)
         else:
-            stride = (ahead - gone) / 2
+            stride, doubtful = (ahead - gone) / 2, ahead
     return Reach(length)
 
 
