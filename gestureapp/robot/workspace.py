@@ -240,8 +240,8 @@ def _planned(
         return room.refusal
     if field.arm is not None:
         reach = reach_along(position, direction, length, field.arm)
-        length = _towards_zero(reach.length, places)
-        limited_by = reach.limited_by or limited_by
+        if reach.limited_by:
+            length, limited_by = _towards_zero(reach.length, places), reach.limited_by
     if length < least:
         text = f"no room for {_name(direction)}: {limited_by}"
         return Refusal("at_limit", text, f"{length} {'deg' if is_rotation else 'mm'}", limited_by)

@@ -96,6 +96,11 @@ CASES = {
     "input": (replace(READY, status=RobotStatus(REMOTE_PLAY, 0x44)), "robot_state", "held"),
     "running": (replace(READY, status=RobotStatus(0xC8, SERVO)), "robot_state", "running"),
     "no pose": (replace(READY, position=None), "robot_pose", "has not told its position"),
+    "other tool": (
+        replace(READY, position=replace(HOME, tool=2)),
+        "robot_pose",
+        "tells the position of tool 2, the settings have tool 0",
+    ),
     "old pose": (replace(READY, pose_age_s=1.26), "robot_pose", "position is 1.3 s old"),
     "outside": (
         replace(READY, position=replace(HOME, pose=replace(HOME.pose, x_mm=1300.0, z_mm=0.0))),

@@ -180,6 +180,25 @@ def test_what_the_field_refuses_the_gate_refuses():
     assert refused(at(x_mm=1150.0)) == "at_limit"
 
 
+def test_a_position_of_another_tool_moves_nothing_and_arms_nothing():
+    other = replace(HOME, tool=4)
+    assert refused(replace(VIEW, position=other)) == "foreign_tool"
+    assert not_armed(replace(REST, position=other)) == "foreign_tool"
+    limits = replace(LIMITS, tool=4)
+    assert refused(replace(VIEW, position=other), limits=limits) is None
+    assert not_armed(replace(REST, position=other), limits=limits) is None
+    refusal = decide(PROPOSAL, replace(VIEW, position=other), LIMITS, NOW_S)
+    assert refusal.text == (
+        "the controller tells the position of tool 4, the settings have tool 0: "
+        "select that tool on the pendant"
+    )
+
+
+def test_outside_the_field_nothing_is_armed():
+    outside = replace(HOME, pose=replace(HOME.pose, x_mm=1300.0))
+    assert not_armed(replace(REST, position=outside)) == "outside_field"
+
+
 @pytest.mark.parametrize("frame", [2, 3, 25])
 def test_in_a_user_frame_nothing_moves_as_the_field_is_not_known_there(frame):
     limits = replace(LIMITS, frame=frame)

@@ -2,13 +2,16 @@
 
 import json
 import math
+from dataclasses import replace
 
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
 from gestureapp.robot import messages as m
+from gestureapp.robot.arm import ArmLimits
 from gestureapp.robot.gate import Limits
+from gestureapp.robot.obstacles import Column, KeepOut
 from gestureapp.robot.values import (
     Direction,
     Pose,
@@ -21,11 +24,22 @@ from gestureapp.robot.values import (
 from gestureapp.robot.workspace import FieldOfOperation
 
 FIELD = FieldOfOperation(1200.0, 500.0, 20.0, ((120.0, 240.0), (-60.0, 60.0), (-90.0, 90.0)), 2.0)
+WHOLE_FIELD = replace(
+    FIELD,
+    floor_mm=-300.0,
+    column=Column(350.0, 800.0),
+    keep_outs=(
+        KeepOut("Tisch \u00e4", (1.0, 2.0, 3.0), (4.0, 5.0, 6.0)),
+        KeepOut("b", (-9.0, -9.0, -9.0), (0.0, 0.0, 0.0)),
+    ),
+    arm=ArmLimits((0.0, 0.0, 9.5), ((-170.0, 170.0),) * 6, 10.0, 10.0, 15.0, 100.0),
+)
 LIMITS = Limits(FIELD, 100.0, 10.0, 1, 0, True, 0.1, 0.2, 0.5)
 POSE = Pose(1.0, 2.0, 3.0, 4.0, 5.0, 6.0)
 REFUSAL = Refusal("held", "the robot is held", "1", "2")
 ALL = [
     m.Start("t", "10.0.0.2", 80, LIMITS, "/x.log"),
+    m.Start("t", "10.0.0.2", 80, replace(LIMITS, field=WHOLE_FIELD), ""),
     m.Listening(4711),
     m.Hello("t", m.Role.WINDOW),
     m.Beat(1.0, True, False, 2.0, float("-inf")),
@@ -132,6 +146,28 @@ def test_a_start_with_limits_out_of_bounds_is_none(name, value):
 def test_a_range_needs_both_its_ends():
     fields = json.loads(m.encode(ALL[0]))
     fields["limits"]["field"]["ranges_deg"][1] = [0.0]
+
+    assert m.decode(json.dumps(fields).encode()) is None
+
+
+@pytest.mark.parametrize(
+    ("name", "value"),
+    [
+        ("column", 5),
+        ("column", {"radius_mm": 350.0}),
+        ("column", {"radius_mm": 0.0, "top_mm": 1.0}),
+        ("keep_outs", None),
+        ("keep_outs", [None]),
+        ("keep_outs", [{"label": "x", "low_mm": [1.0, 1.0, 1.0], "high_mm": [0.0, 2.0, 2.0]}]),
+        ("arm", []),
+        ("floor_mm", None),
+        ("floor_mm", 2000.0),
+    ],
+)
+def test_a_start_whose_field_cannot_be_read_is_none(name, value):
+    limits = replace(LIMITS, field=replace(WHOLE_FIELD, ceiling_mm=1000.0))
+    fields = json.loads(m.encode(m.Start("t", "10.0.0.2", 80, limits, "")))
+    fields["limits"]["field"][name] = value
 
     assert m.decode(json.dumps(fields).encode()) is None
 

@@ -7,9 +7,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from gestureapp.robot import hp6
-from gestureapp.robot.values import Pose, PoseIncrement
+from gestureapp.robot.values import Pose, PoseIncrement, Posture
 from gestureapp.simulation.controller import Controller
 from gestureapp.simulation.nx100_values import (
+    JOINT_RANGES_DEG,
+    LIMIT_ALARM,
     Code,
     ControllerOptions,
     EndReason,
@@ -226,6 +228,41 @@ def test_leaving_the_reach_is_an_alarm_that_reset_and_servo_on_recover():
     assert model.move(back, t_s) is Code.SERVO_OFF
     assert model.command_servo(True, t_s) is Code.OK
     assert model.move(back, t_s) is Code.OK
+    assert end_of(model).reason is EndReason.DONE
+
+
+@pytest.mark.parametrize(
+    ("increment", "posture"),
+    [
+        (PoseIncrement(drz_deg=-355.0), 17),  # T, which turned more than half a turn
+        (PoseIncrement(dry_deg=-120.0), 1),  # through a straight wrist
+        (PoseIncrement(dx_mm=-700.0), 1),  # the forearm against the lower arm
+        (PoseIncrement(dy_mm=1500.0), 1),  # stretched
+    ],
+)
+def test_a_joint_at_its_limit_is_an_alarm_on_the_way(increment, posture):
+    start = Pose(800.0, 0.0, 300.0, 180.0, 0.0, 0.0)
+    model = controller(joint_ranges_deg=(*JOINT_RANGES_DEG[:5], (-300.0, 300.0)))
+    assert model.move(Move(1, 100.0, 1, increment), 0.0) is Code.OK
+
+    ended = end_of(model)
+
+    assert ended.reason is EndReason.ALARM
+    assert ended.pose != start
+    assert model.alarms == [(LIMIT_ALARM, 0)]
+    assert not model.is_servo_on
+    assert hp6.posture_of(model.joints(ended.t_s)) == Posture(posture)
+    # The joints are those of the place, not of where the move would have led.
+    at = hp6.tool_pose(model.joints(ended.t_s))
+    assert at.position_mm == pytest.approx(ended.pose.position_mm, abs=1e-6)
+    t_s = ended.t_s + 1.0
+    back = PoseIncrement(
+        *(-part / 50 for part in (*increment.translation_mm, *increment.rotation_deg))
+    )
+    assert model.move(Move(1, 100.0, 1, back), t_s) is Code.ALARM
+    assert model.reset(t_s) is Code.OK
+    assert model.command_servo(True, t_s) is Code.OK
+    assert model.move(Move(1, 100.0, 1, back), t_s) is Code.OK
     assert end_of(model).reason is EndReason.DONE
 
 

@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from gestureapp.robot.values import Pose
+from gestureapp.robot.values import Pose, Posture
 from gestureapp.simulation.controller import Controller
 from gestureapp.simulation.nx100_commands import NAMES, NEEDS_REMOTE, execute
 from gestureapp.simulation.nx100_conversation import Conversation
@@ -138,6 +138,20 @@ def test_position_has_three_and_two_decimals_and_the_documented_fields():
     assert talk.asks("RPOSC", "1,0") == wanted.encode() + b"\r"
     assert talk.asks("RPOSC", "0, 1") == wanted.encode() + b",0,0,0,0,0,0\r"
     assert len(talk.asks("RPOSJ").split(b",")) == 12
+
+
+def test_position_tells_posture_and_tool_as_the_arm_has_them():
+    flipped = ControllerOptions(start_posture=Posture(0), tool=7)
+    assert connected(cell=flipped).asks("RPOSC", "1,0").endswith(b",180.00,0.00,0.00,0,7\r")
+
+    talk = connected()
+    turn = "1,30.0,1,0.000,0.000,0.000,0.00,0.00,{}.00,0,0,0,0,0,0,0,0"
+    for angle in (-150, -150):
+        assert talk.asks("IMOV", turn.format(angle)) == b"0000\r\n"
+        talk.now_s += 10.0
+    # T follows a tool that hangs down the other way: it stands at 300 degrees now, not at -60.
+    assert talk.asks("RPOSC", "1,0").endswith(b",180.00,0.00,60.00,17,0\r")
+    assert talk.asks("RPOSJ").split(b",")[5] == b"186600"
 
 
 def test_worked_example_of_a_move():

@@ -84,6 +84,7 @@ def test_arguments_become_options(tmp_path):
     options = parsed(
         *("--segments", "late-lf", "--answer-delay-ms", "5", "--second", "ignore", "--strict"),
         *("--pose", "700,1,2,180,0,5", "--resume-after-hold", "--ladder-ms", "400"),
+        *("--tool", "3", "--tool-mm", "0,-5,120"),
         *("--idle-close-s", "30", "--script", str(script), "--servo-on-delay-ms", "800"),
     )
     assert options.segments is Segments.LATE_LF
@@ -92,11 +93,22 @@ def test_arguments_become_options(tmp_path):
     assert options.is_strict
     assert options.idle_close_s == 30.0
     assert options.controller.start_pose == Pose(700.0, 1.0, 2.0, 180.0, 0.0, 5.0)
+    assert (options.controller.tool, options.controller.tool_mm) == (3, (0.0, -5.0, 120.0))
     assert options.controller.resumes_after_hold
     assert options.controller.ladder_s == 0.4
     assert options.controller.servo_on_delay_s == 0.8
     ((at_s, fault),) = [(entry.at_s, entry.fault) for entry in options.script]
     assert (at_s, fault.kind, fault.delay_s) == (1.5, FaultKind.SLOW, 0.25)
+
+
+@pytest.mark.parametrize(
+    "words",
+    [("--tool", "24"), ("--tool", "x"), ("--tool-mm", "1,2"), ("--tool-mm", "1,2,nan")],
+)
+def test_a_tool_that_no_controller_has_is_a_wrong_usage(words, capsys):
+    with pytest.raises(SystemExit):
+        parsed(*words)
+    assert "wanted" in capsys.readouterr().err
 
 
 def test_arguments_left_out_are_the_defaults():
