@@ -63,7 +63,7 @@ class MotionPanel(QFrame):
             ("End", pose_text(end, is_rotation)),
             ("Distance", distance),
             ("Speed", robot.speed),
-            ("Ends at", robot.limited_by),
+            ("Ends at", f"{distance}: {robot.limited_by}"),
         ):
             self._values[name].setText(text)
         if robot.pose is not None:

@@ -1,9 +1,20 @@
 """The field of operation from the side and from above, to scale, with the tool and its way."""
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 from PySide6.QtCore import QLineF, QPointF, QRectF, QSize, Qt
-from PySide6.QtGui import QColor, QFont, QPainter, QPaintEvent, QPen, QPolygonF
+from PySide6.QtGui import (
+    QBrush,
+    QColor,
+    QFont,
+    QFontMetricsF,
+    QPainter,
+    QPainterPath,
+    QPaintEvent,
+    QPen,
+    QPolygonF,
+)
 from PySide6.QtWidgets import QFrame, QSizePolicy, QWidget
 
 from gestureapp.cell.snapshot import RobotView
@@ -101,6 +112,15 @@ class FieldView(QFrame):
             self.setAccessibleName(f"Robot: tool at {where}")
 
 
+@dataclass(frozen=True, slots=True)
+class _Body:
+    """What the tool stays out of, on the screen; a column has no name, it is the robot."""
+
+    area: QRectF
+    name: str = ""
+    is_round: bool = False
+
+
 class _View:
     """One view while it is painted: the scale and the pens."""
 
@@ -126,8 +146,10 @@ class _View:
         """Draw everything of this view."""
         self._painter.save()
         self._draw_field()
+        self._draw_bodies()
         self._draw_axes()
         self._painter.setClipRect(self._frame)
+        self._name_bodies()
         if len(path_mm) > 1:
             self._painter.setPen(QPen(QColor(self._colours.text), 2))
             self._painter.drawPolyline(QPolygonF([self._at(point) for point in path_mm]))
@@ -159,6 +181,64 @@ class _View:
             label = QRectF(corner.x() - 62, corner.y() + 1, 60, 16)
             self._write(label, f"R {radius_mm:.0f}", Qt.AlignmentFlag.AlignRight)
         painter.setBrush(Qt.BrushStyle.NoBrush)
+
+    def _draw_bodies(self) -> None:
+        """What the tool stays out of, hatched, as far as it lies inside the field."""
+        painter, inside = self._painter, QPainterPath()
+        radius = self._settings.ext_radius_mm * self._scale
+        inside.addEllipse(self._frame.center(), radius, radius)
+        painter.save()
+        painter.setClipPath(inside)
+        painter.setPen(QPen(QColor(self._colours.muted), 1))
+        painter.setBrush(QBrush(QColor(self._colours.line), Qt.BrushStyle.BDiagPattern))
+        for body in self._bodies():
+            if self._plane is TOP and body.is_round:
+                painter.drawEllipse(body.area)
+            else:
+                painter.drawRect(body.area)
+        painter.restore()
+
+    def _bodies(self) -> Iterator["_Body"]:
+        """The bodies that can be seen from here; floor and ceiling from the side only."""
+        s, far = self._settings, self._settings.ext_radius_mm
+        out = s.column_radius_mm
+        if self._plane is SIDE:
+            floor, ceiling = max(-far, s.floor_mm), min(far, s.ceiling_mm)
+            if floor > -far:
+                yield _Body(self._area((-far, -far), (far, floor)), f"floor {floor:.0f}")
+            if ceiling < far:
+                yield _Body(self._area((-far, ceiling), (far, far)), f"ceiling {ceiling:.0f}")
+            top = min(s.column_top_mm, ceiling)
+            if out and top > floor:
+                yield _Body(self._area((-out, floor), (out, top)))
+        elif out:
+            yield _Body(self._area((-out, -out), (out, out)), is_round=True)
+        across, up = self._plane.across, self._plane.up
+        for box in s.keep_outs:
+            low, high = box.low_mm, box.high_mm
+            area = self._area((low[across], low[up]), (high[across], high[up]))
+            yield _Body(area, box.name)
+
+    def _area(self, low_mm: tuple[float, float], high_mm: tuple[float, float]) -> QRectF:
+        centre, scale = self._frame.center(), self._scale
+        corner = centre + QPointF(low_mm[0], -low_mm[1]) * scale
+        return QRectF(corner, centre + QPointF(high_mm[0], -high_mm[1]) * scale).normalized()
+
+    def _name_bodies(self) -> None:
+        """The names, on patches that keep hatching and axes away from them."""
+        self._font.setBold(False)
+        self._font.setPixelSize(SMALL_PX - 1)
+        self._painter.setFont(self._font)
+        for body in self._bodies():
+            if not body.name:
+                continue
+            patch = QFontMetricsF(self._font).boundingRect(body.name).adjusted(-3, 0, 3, 0)
+            patch.moveCenter(body.area.center())
+            if body.area.left() < self._frame.center().x() < body.area.right():
+                patch.moveLeft(self._frame.center().x() + 6)  # beside the axis and the column
+            self._painter.fillRect(patch, QColor(self._colours.base))
+            self._painter.setPen(QPen(QColor(self._colours.muted), 1))
+            self._painter.drawText(patch, Qt.AlignmentFlag.AlignCenter, body.name)
 
     def _draw_axes(self) -> None:
         painter, frame = self._painter, self._frame

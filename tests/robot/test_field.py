@@ -12,7 +12,14 @@ from gestureapp.config import Settings
 from gestureapp.robot.arm import find_arm_limit
 from gestureapp.robot.obstacles import Column, KeepOut
 from gestureapp.robot.values import Direction, Pose, Position, Posture, Refusal
-from gestureapp.robot.workspace import MIN_LENGTH_MM, FieldOfOperation, Plan, find_outside, plan
+from gestureapp.robot.workspace import (
+    EDGE_MM,
+    MIN_LENGTH_MM,
+    FieldOfOperation,
+    Plan,
+    find_outside,
+    plan,
+)
 
 FIXTURE = KeepOut("fixture", (900.0, -200.0, -300.0), (1200.0, 200.0, 400.0))
 FIELD = replace(field_of(Settings()), keep_outs=(FIXTURE,))
@@ -122,7 +129,10 @@ def test_a_start_that_is_not_inside_is_refused_for_every_direction(start, direct
     here = start.pose.position_mm
     refusal = find_outside(start, replace(field, arm=None))
 
-    assert (refusal is None) == is_inside(here, field, 0.001) or not is_inside(here, field, -0.002)
+    if is_inside(here, field, EDGE_MM + TINY):
+        assert refusal is None
+    elif not is_inside(here, field, EDGE_MM - TINY):
+        assert refusal is not None
     if refusal is not None:
         assert refusal.reason in ("outside_field", "on_edge")
         assert plan(start, direction, field) == refusal

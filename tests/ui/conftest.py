@@ -137,7 +137,7 @@ def moving(label: str = "X+", share: float = 0.4) -> Snapshot:
         pose=now,
         start=start,
         increment=increment,
-        limited_by="external sphere, 20 mm before it",
+        limited_by="outer sphere",
         speed="100.0 mm/s",
     )
     return replace(

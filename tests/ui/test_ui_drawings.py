@@ -6,6 +6,7 @@ from math import sin
 import numpy as np
 import pytest
 
+from gestureapp.config import KeepOutSettings, RobotSettings
 from gestureapp.robot.values import Direction, Pose, PoseIncrement
 from gestureapp.sensing.store import SampleStore
 from gestureapp.sensing.values import Sample
@@ -128,6 +129,40 @@ def test_the_field_can_be_drawn_wherever_the_robot_claims_to_be(field, scenes, p
     field.show_robot(robot)
     image = field.grab().toImage()
     assert image.pixelColor(90, 90).name() == colours_of(field.palette()).base
+
+
+def hatched(field: FieldView, x_mm: float, up_mm: float, *, from_above: bool) -> bool:
+    """Whether there is hatching about a place: pixels that are not all alike."""
+    image = field.grab().toImage()
+    half, middle_y = field.width() / 2, (13 + 6 + 2 + field.height() - 4) / 2
+    scale = (min(half - 8, field.height() - 28) / 2 - 10) / 1200.0
+    x = round(half / 2 + (half if from_above else 0) + x_mm * scale)
+    y = round(middle_y - up_mm * scale)
+    patch = [image.pixelColor(x + i, y + j).name() for i in range(-6, 7) for j in range(-6, 7)]
+    return len(set(patch)) > 1
+
+
+@pytest.mark.parametrize(
+    ("x_mm", "up_mm", "from_above", "setting"),
+    [
+        (-750.0, -500.0, False, {"floor_mm": -1500.0}),
+        (-250.0, 1090.0, False, {"ceiling_mm": 1500.0}),
+        (-240.0, 650.0, False, {"column_radius_mm": 0.0}),
+        (150.0, -150.0, True, {"column_radius_mm": 0.0}),
+        (650.0, 650.0, False, {"keep_outs": ()}),
+        (650.0, -600.0, True, {"keep_outs": ()}),
+    ],
+    ids=["floor", "ceiling", "column", "column from above", "box", "box from above"],
+)
+def test_what_the_tool_stays_out_of_is_hatched(qtbot, scenes, x_mm, up_mm, from_above, setting):
+    box = KeepOutSettings("post", (550.0, -700.0, 550.0), (850.0, -500.0, 850.0))
+    bounded = RobotSettings(keep_outs=(box,))
+    for settings, is_there in ((bounded, True), (replace(bounded, **setting), False)):
+        field = FieldView(settings)
+        qtbot.addWidget(field)
+        field.resize(960, 540)
+        field.show_robot(replace(scenes.ready().robot, pose=None))
+        assert hatched(field, x_mm, up_mm, from_above=from_above) is is_there
 
 
 def test_both_views_have_the_same_scale(field, scenes):

@@ -142,7 +142,7 @@ def test_a_move_is_told_before_and_while_it_runs(window, cell, scenes):
     assert text_of(window, "motionEnd") == "X 1135.3  Y 100.0  Z 300.0 mm"
     assert text_of(window, "motionDistance") == "535.3 mm"
     assert text_of(window, "motionSpeed") == "100.0 mm/s"
-    assert text_of(window, "motionEndsat") == "external sphere, 20 mm before it"
+    assert text_of(window, "motionEndsat") == "535.3 mm: outer sphere"
     assert window.findChild(QProgressBar, "motionBar").value() == 400
 
 
