@@ -131,6 +131,7 @@ def robot_fields(message: m.StatusReport | m.PoseReport) -> dict[str, Json]:
     """What the robot answered, as the record's topic has it."""
     if isinstance(message, m.StatusReport):
         return {"data_1": message.data_1, "data_2": message.data_2}
-    pose = message.position.pose
+    position = message.position
     names = ("x_mm", "y_mm", "z_mm", "rx_deg", "ry_deg", "rz_deg")
-    return {name: getattr(pose, name) for name in names}
+    fields: dict[str, Json] = {name: getattr(position.pose, name) for name in names}
+    return {**fields, "type": position.posture.bits, "tool": position.tool}

@@ -113,8 +113,13 @@ SCHEMAS: Final[Mapping[Topic, Schema]] = {
             "data_2": _field(["integer", "null"], "second byte of RSTATS"),
             **{f"{axis}_mm": _number(f"tool position {axis.upper()}, mm") for axis in "xyz"},
             **{f"r{axis}_deg": _number(f"tool angle R{axis}, degrees") for axis in "xyz"},
+            "type": _field(["integer", "null"], "posture of the arm, the bits of RPOSC's Type"),
+            "tool": _field(["integer", "null"], "number of the tool whose point that is"),
         },
-        optional=("data_1", "data_2", "x_mm", "y_mm", "z_mm", "rx_deg", "ry_deg", "rz_deg"),
+        optional=(
+            *("data_1", "data_2", "x_mm", "y_mm", "z_mm", "rx_deg", "ry_deg", "rz_deg"),
+            *("type", "tool"),
+        ),
     ),
     Topic.EVENT: _schema(
         "The cell's story for a person",
