@@ -56,7 +56,7 @@ class Act:
     @property
     def line(self) -> str:
         """As it stands in the log, without time and line end."""
-        words = " ".join(f"{self.did.value} {self.reason or self.text}".split())
+        words = " ".join(f"{self.did.value}: {self.text or self.reason}".split())
         fields = dataclasses.asdict(self) | {"did": self.did.value}
         return f"{words}\t{json.dumps(fields)}"
 
