@@ -1,8 +1,11 @@
 """The supervisor: permission, one activation, one increment, how a move ends, refusals."""
 
+from dataclasses import replace
+
 import pytest
 
 from gestureapp.robot import messages as m
+from gestureapp.robot.obstacles import KeepOut
 from gestureapp.robot.values import Direction, Pose, Position, Posture, StopReason
 
 
@@ -200,6 +203,33 @@ def test_a_command_waits_for_the_one_answer_and_is_judged_again_before_it_goes(c
 
     assert cell.heard(m.CommandRefused)[0].refusal.reason == "left_not_start"
     assert cell.moves() == []
+
+
+@pytest.mark.parametrize(
+    ("x_mm", "told"),
+    [(800.0, "keep-out 'post'"), (850.0, "keep-out 'post'"), (950.0, "outside_field")],
+)
+def test_the_place_that_came_with_the_awaited_answer_decides(new_cell, limits, x_mm, told):
+    """The robot was put elsewhere between the proposal and the moment its bytes could leave."""
+    post = KeepOut("post", (900.0, -100.0, 200.0), (1000.0, 100.0, 400.0))
+    cell = new_cell(limits=replace(limits, field=replace(limits.field, keep_outs=(post,))))
+    cell.robot.answer_s = 0.02
+    cell.arm()
+    cell.posture = "start"
+    cell.until(lambda: cell.wire[-1][1] == b"1,0\r" and cell.robot.out)  # RPOSC awaits its answer
+    cell.robot.out = [
+        (t_s, data.replace(b"800.000", b"%.3f" % x_mm)) for t_s, data in cell.robot.out
+    ]
+    cell.propose()
+    cell.run(0.06)
+
+    if told == "outside_field":
+        assert cell.heard(m.CommandRefused)[0].refusal.reason == told
+        assert cell.moves() == []
+    else:
+        sent = cell.heard(m.CommandSent)[0]
+        assert (sent.start.x_mm, sent.limited_by) == (x_mm, told)
+        assert sent.increment.dx_mm == pytest.approx(900.0 - x_mm - limits.field.margin_mm)
 
 
 def test_a_decision_that_waited_too_long_is_not_sent(cell):
