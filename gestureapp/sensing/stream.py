@@ -177,7 +177,7 @@ class StreamTracker:
         newest_s = self._newest_s
         if newest_s is not None and age_s <= self._trip_level_s:
             return LinkState.RECEIVING, ""
-        if newest_s is not None and now_s - newest_s <= self._trip_level_s:
+        if newest_s is not None and self._is_frozen(newest_s, now_s):
             return LinkState.WRONG_DATA, f"frozen on one value for {_span(age_s)}: {_RESTART}"
         since_s = self._connected_s if newest_s is None else newest_s
         if self._garbage is not None and self._is_garbage_newest:
@@ -185,6 +185,12 @@ class StreamTracker:
                 return LinkState.WRONG_DATA, _garbage_trouble(self._garbage, now_s - since_s)
             since_s = self._garbage_s
         return LinkState.NO_DATA, f"no data for {_span(now_s - since_s)}: {_SILENCE_REMEDY}"
+
+    def _is_frozen(self, newest_s: float, now_s: float) -> bool:
+        """Named by what lasted longer: two equal readings before a silence are no frozen sensor."""
+        silent_s = now_s - newest_s
+        changed_s = newest_s if self._changed_s is None else self._changed_s
+        return silent_s <= self._trip_level_s and silent_s <= newest_s - changed_s
 
     def _rate_trouble(self, now_s: float, rate_hz: float) -> str:
         if not self._rate.is_measured(now_s) and self._jump:

@@ -240,6 +240,26 @@ def test_silence_after_frozen_becomes_no_data():
     assert bench.health.link is LinkState.NO_DATA
 
 
+@pytest.mark.parametrize("n_equal", [1, 2, 4])
+def test_silence_after_a_few_equal_readings_is_told_as_silence(n_equal: int):
+    bench = Bench()
+    bench.stream(3.0)
+    bench.stream(0.01 * (n_equal + 1), value_g=0.5)
+    bench.wait(TRIP_S + 0.002 - 0.01 * n_equal)
+    health = bench.health
+    assert health.age_s > TRIP_S
+    assert health.link is LinkState.NO_DATA
+    assert "no data" in health.reason
+
+
+def test_readings_that_stay_equal_are_told_as_frozen():
+    bench = Bench()
+    bench.stream(3.0)
+    bench.stream(TRIP_S + 0.02, value_g=0.5)
+    assert bench.health.link is LinkState.WRONG_DATA
+    assert "frozen on one value" in bench.health.reason
+
+
 def test_a_gap_in_the_running_numbers_is_counted_as_lost():
     bench = Bench()
     bench.tracker.event(bench.now_s, CounterGap(5))
