@@ -100,8 +100,8 @@ def try_fault(rig: Rig, scenario: Scenario) -> Outcome:
         told = _guardian_log(rig)[n_logged:].decode("utf-8", "replace")
     if not any(words in told.lower() for words in scenario.told):
         problems.append(f"told {told!r}, not {' or '.join(map(repr, scenario.told))}")
+    problems += scenario.verify(rig, begun_s)  # a full disk is emptied by it
     problems += _session_problems(rig, begun_s, is_over=not scenario.screen)
-    problems += scenario.verify(rig, begun_s)
     rig.log.read()
     hold, end_s = rig.log.first("HOLD", "1", begun_s), rig.log.end_after(begun_s)
     if scenario.expected is Expected.MOVES_NOT:
