@@ -163,8 +163,8 @@ class Supervisor:
 
     def tick(self, now_s: float) -> None:
         """Look at every clock, then use the line if it is free."""
+        self._watch(now_s)  # before the line: after a sleep its answer is overdue as well
         self._handle(self._exchange.check(now_s), now_s)
-        self._watch(now_s)
         self._check_stop(now_s)
         self._check_motion(now_s)
         self._check_release(now_s)

@@ -99,6 +99,16 @@ def test_a_computer_that_stood_still_while_the_robot_moved_is_a_stop_that_says_s
     assert cell.supervisor.is_armed
 
 
+@pytest.mark.parametrize("asleep_s", [0.5, 10.0])
+def test_a_computer_that_slept_over_an_answer_is_not_told_as_a_lost_link(cell, asleep_s):
+    cell.move()
+    cell.until(lambda: not cell.supervisor._exchange.can_send)
+    cell.now_s += asleep_s
+    cell.supervisor.tick(cell.now_s)  # the clock is looked at before any byte is read
+    cell.collect()
+    assert cell.heard(m.StopAsked)[0].reason is StopReason.COMPUTER_STALLED
+
+
 def test_a_computer_that_stood_still_while_nothing_could_move_is_no_stop(cell):
     cell.run(1.0)
     cell.now_s += 10.0
