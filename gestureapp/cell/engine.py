@@ -8,6 +8,7 @@ from pathlib import Path
 from gestureapp.cell import events as e
 from gestureapp.cell.control import Control
 from gestureapp.cell.guardian_link import GuardianLink
+from gestureapp.cell.guardian_process import SpareGuardian
 from gestureapp.cell.inputs import GuardianPort, GuardianSaid, SampleCame, SensorTold, ServoAsked
 from gestureapp.cell.records import Record, Recorder, Topic
 from gestureapp.cell.snapshot import CellState, RecordingView, Snapshot
@@ -18,6 +19,7 @@ from gestureapp.gestures import LABELS
 from gestureapp.recognition.model_file import load_model
 from gestureapp.recognition.paper import PaperRecogniser
 from gestureapp.recognition.values import Recogniser
+from gestureapp.robot import messages as m
 from gestureapp.robot.arm import ArmLimits
 from gestureapp.robot.gate import Limits
 from gestureapp.robot.obstacles import Column, KeepOut
@@ -36,7 +38,7 @@ STALE_PICTURE_S = 0.5
 """An older picture is not what is: the control thread has stopped or is stuck."""
 CLOSING_LIMIT_S = 2.0
 """A robot stands within 0.5 s; the guardian goes on stopping one that does not, also without us."""
-OLD_GUARDIAN_S = 0.1
+OLD_GUARDIAN_S = 0.02
 """A guardian that has ended is gone by then; one that hangs is killed, so that only one holds."""
 
 
@@ -76,6 +78,7 @@ class Cell:
         self._guardian_log, self._clock = guardian_log, clock
         self._gui_s = clock()
         self._link: GuardianLink | None = None
+        self._spare = SpareGuardian()
         self._is_closing = False
         recogniser, model, problem = find_recogniser(settings)
         self._control = Control(
@@ -158,6 +161,7 @@ class Cell:
         self._worker.stop()
         if self._link is not None:
             self._link.close()
+        self._spare.close()
 
     # Parts.
 
@@ -182,12 +186,13 @@ class Cell:
         if old is not None:
             old.close(wait_s=OLD_GUARDIAN_S, is_killed=True)
         link = GuardianLink(
+            self._spare.take(),
             host=robot.host,
             port=robot.port,
             limits=self._limits,
             is_simulation=self.settings.is_simulation,
             log_file=self._guardian_log,
-            on_message=lambda message: self._control.put(GuardianSaid(message)),
+            on_message=self._guardian_said,
             on_lost=lambda text: self._control.put(e.GuardianGone(self._clock(), text)),
             clock=self._clock,
         )
@@ -196,6 +201,10 @@ class Cell:
             link.close()
             raise GuardianLost("the application is closing")
         return link
+
+    def _guardian_said(self, message: m.FromGuardian) -> None:
+        self._control.put(GuardianSaid(message))
+        self._spare.prepare()  # in the link's own thread: the control thread does not wait for it
 
     def _reader_died(self, error: WorkerError) -> None:
         self._control.put(e.Faulted(self._clock(), f"{error}; restart the application"))

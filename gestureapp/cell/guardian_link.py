@@ -10,7 +10,7 @@ import threading
 from collections.abc import Callable
 from pathlib import Path
 
-from gestureapp.children import child_command, child_environment
+from gestureapp.cell.guardian_process import close_pipes
 from gestureapp.clock import Clock
 from gestureapp.errors import GuardianLost
 from gestureapp.robot import messages as m
@@ -20,8 +20,9 @@ from gestureapp.worker import Worker
 
 log = logging.getLogger(__name__)
 
-START_LIMIT_S = 5.0
-"""From the process' start to its "listening" line; 60 ms here, but a cold disk is slow."""
+START_LIMIT_S = 2.0
+"""From the ``Start`` line to the "listening" one. A new process needs 0.2 s, more on a cold disk;
+one that has not answered by then is left for another."""
 SEND_LIMIT_S = 0.05
 """A guardian that takes no bytes for this long counts as lost."""
 
@@ -33,6 +34,7 @@ class GuardianLink:
     its own, so neither ever waits for the other.
 
     Args:
+        process: Waits for its ``Start`` line; the link's own from now on.
         host: The controller's address; empty when there is none.
         port: Its TCP port.
         limits: For the guardian's whole life.
@@ -49,6 +51,7 @@ class GuardianLink:
 
     def __init__(
         self,
+        process: subprocess.Popen[bytes],
         host: str,
         port: int,
         limits: Limits,
@@ -64,7 +67,7 @@ class GuardianLink:
         self._is_closing = False
         token = secrets.token_hex(16)
         start = m.Start(token, host, port, limits, str(log_file or ""), is_simulation)
-        self._process = _start_process()
+        self._process = process
         try:
             self._tell_start(start)
             address = ("127.0.0.1", self._read_port())
@@ -188,20 +191,4 @@ class GuardianLink:
 
     def _end_process(self) -> None:
         self._process.wait()
-        for pipe in (self._process.stdin, self._process.stdout):
-            if pipe is not None:
-                with contextlib.suppress(OSError):
-                    pipe.close()
-
-
-def _start_process() -> subprocess.Popen[bytes]:
-    try:
-        return subprocess.Popen(
-            child_command("guardian"),
-            stdin=subprocess.PIPE,
-            stdout=subprocess.PIPE,
-            start_new_session=True,
-            env=child_environment(),
-        )
-    except OSError as error:
-        raise GuardianLost(f"the guardian cannot be started: {error}; start again") from error
+        close_pipes(self._process)

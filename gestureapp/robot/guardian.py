@@ -36,6 +36,8 @@ RETRY_S = 0.2
 """Between two attempts to reach the controller; none while a stop waits for the line."""
 UNREACHABLE_LIMIT_S = 60.0
 """How long a guardian without application goes on trying to reach a robot that may be moving."""
+ALIVE_S = 0.1
+"""The application hears of the guardian at least this often."""
 BACKLOG_LIMIT = 1 << 20
 """Bytes kept for an application that does not read; more is dropped, it is frozen anyway."""
 
@@ -71,7 +73,7 @@ class Guardian:
         self._was_greeted = False
         self._was_told = False
         self._gone_s: float | None = None
-        self._seen_s = float("-inf")
+        self._seen_s = self._told_s = float("-inf")
         self._could_move = False
         self._run = f"{os.getpid()} {time.time():.3f}"
         self._write_log = write_log
@@ -124,6 +126,8 @@ class Guardian:
         self._keep_robot(monotonic())
         self._supervisor.tick(monotonic())
         self._flush()
+        if monotonic() - self._told_s >= ALIVE_S:
+            self._tell(m.Alive())
 
     # The application's connections.
 
@@ -330,7 +334,7 @@ class Guardian:
         act = act_of(message, self._run, time.time(), self._could_move)
         if act is not None:
             log.warning("%s", act.line)
-        line = m.encode(message)
+        line, self._told_s = m.encode(message), monotonic()
         for peer in self._peers.values():
             if peer.role is m.Role.CONTROL and len(peer.unsent) < BACKLOG_LIMIT:
                 peer.unsent += line
@@ -353,7 +357,10 @@ class Guardian:
 def main() -> int:
     """The process: read ``Start``, say where it listens, serve. Returns the exit code."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C is for the application; it stops us
-    start = m.decode(sys.stdin.buffer.readline())
+    line = sys.stdin.buffer.readline()
+    if not line:  # a spare one, and the application has ended
+        return 0
+    start = m.decode(line)
     if not isinstance(start, m.Start):
         sys.stderr.write("guardian: it is started by the application, not by hand\n")
         return 2

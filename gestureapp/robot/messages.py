@@ -256,11 +256,16 @@ class Notice:
     text: str
 
 
+@dataclass(frozen=True, slots=True)
+class Alive:
+    """The guardian runs; said when it has nothing else to say."""
+
+
 ToGuardian = Hello | Beat | Arm | Disarm | Propose | Stop | ServoOn | ServoOff | Bye
 FromGuardian = (
     LinkReport | StatusReport | PoseReport | Armed | ArmRefused | Disarmed | CommandSent
     | CommandAccepted | CommandRefused | MotionEnded | StopAsked | StopConfirmed | StopUnconfirmed
-    | HoldReleased | Hindrances | Notice
+    | HoldReleased | Hindrances | Notice | Alive
 )  # fmt: skip
 Message = Start | Listening | ToGuardian | FromGuardian
 

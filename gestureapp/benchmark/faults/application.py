@@ -47,7 +47,7 @@ class Application:
 
     @property
     def guardian_pid(self) -> int:
-        """Of the guardian it has started last.
+        """Of the guardian in use; the spare one was started later.
 
         Raises:
             WorkerError: it has none.
@@ -55,7 +55,7 @@ class Application:
         found = children_of(self.pid, b"guardian")
         if not found:
             raise WorkerError("application", "has no guardian; start it again")
-        return max(found)
+        return min(found)
 
     def ask(self, what: str, **fields: object) -> dict[str, object]:
         """Ask its command port.

@@ -347,7 +347,7 @@ SCENARIOS = (
     Scenario(
         "guardian-pause", "guardian stopped (SIGSTOP)",
         f"silent for {SILENT_TICKS * CONTROL_TICK_S:.1f} s; another one holds first",
-        1000 * SILENT_TICKS * CONTROL_TICK_S + 500, _pause_guardian,
+        1000 * SILENT_TICKS * CONTROL_TICK_S + 100, _pause_guardian,
         ("guardian process is silent",), verify=_holds_first,
     ),
 )  # fmt: skip

@@ -184,7 +184,7 @@ def test_a_log_that_cannot_be_written_keeps_no_guardian_from_its_work(start, tmp
     application(guardian).arm()
 
 
-@pytest.mark.parametrize("line", [b"", m.encode(m.Bye())])
+@pytest.mark.parametrize("line", [b"\n", m.encode(m.Bye())])
 def test_it_is_not_started_by_hand(line):
     done = subprocess.run(
         child_command("guardian"),
