@@ -6,7 +6,7 @@ Exceptions are for "this call could not do what you asked". The tree:
     GestureAppError
       ConfigError(field, value, reason)
       SensorError(sensor)            SensorNotFound, SensorBusy, SensorDisconnected
-      RobotError                     GuardianLost
+      RobotError                     GuardianLost, RobotInUse
       RecordingError(path)           RecordingInvalid, RecordingIncomplete, DiskFull
       ModelError(path)               ModelInvalid, ModelMismatch, NotEnoughTakes
       WorkerError(worker)            wraps what killed a thread
@@ -69,6 +69,10 @@ class RobotError(GestureAppError):
 
 class GuardianLost(RobotError):
     """The guardian process is gone or could not be started."""
+
+
+class RobotInUse(RobotError):
+    """Another application has the robot; a second window's STOP would reach nothing."""
 
 
 class RecordingError(GestureAppError):

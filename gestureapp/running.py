@@ -14,9 +14,10 @@ from gestureapp.cell.engine import Cell
 from gestureapp.cell.last_time import LastTime, find_last_time
 from gestureapp.cell.snapshot import RecordingView
 from gestureapp.clock import monotonic
-from gestureapp.config import Settings
-from gestureapp.errors import ConfigError
+from gestureapp.config import RobotSettings, Settings
+from gestureapp.errors import ConfigError, RobotInUse
 from gestureapp.recording.session_writer import SessionWriter
+from gestureapp.robot.lock import find_other
 from gestureapp.simulation.demo import DemoCell, DemoOptions
 from gestureapp.simulation.operator import OperatorClient
 
@@ -86,6 +87,7 @@ def running_cell(
         if demo is not None:
             emulators = opened.enter_context(DemoCell(demo))
             settings = emulators.settings(settings)
+        _refuse_second(settings.robot)
         recorder = SessionWriter(folder, monotonic, time.time, describe(settings))
         recorder.start()
         opened.callback(recorder.stop)
@@ -98,6 +100,12 @@ def running_cell(
             cell.tell(last_time.text)
         operator = emulators.operator if emulators is not None else None
         yield RunningCell(cell, operator, recorder, emulators, last_time)
+
+
+def _refuse_second(robot: RobotSettings) -> None:
+    other = find_other(robot.host, robot.port) if robot.host else None
+    if other is not None:
+        raise RobotInUse(f"{other.text}: {other.remedy}")
 
 
 def _view_of(recorder: SessionWriter) -> RecordingView:

@@ -1,6 +1,7 @@
 """A cell with everything around it: its folders, its recorder, its emulators, its end."""
 
 import os
+import sys
 from dataclasses import replace
 from pathlib import Path
 
@@ -9,8 +10,9 @@ import pytest
 from gestureapp import __version__
 from gestureapp.cell.snapshot import CellState
 from gestureapp.config import RobotSettings, Settings
-from gestureapp.errors import ConfigError, GestureAppError
+from gestureapp.errors import ConfigError, GestureAppError, RobotInUse
 from gestureapp.recording.session_reader import read_session
+from gestureapp.robot.lock import AddressLock
 from gestureapp.running import data_folder, describe, running_cell, settings_files
 from gestureapp.simulation.demo import DemoOptions
 from tests.cell.conftest import wait_until
@@ -49,6 +51,21 @@ def test_a_sessions_metadata_has_every_setting_as_it_is_used():
     assert facts["site.trip_level_s"] == "0.1"
     assert all(isinstance(value, str) for value in facts.values())
     assert describe(Settings())["mode"] == "live"
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="abstract socket names")
+def test_a_second_application_is_not_started_on_a_robot_that_another_one_has(tmp_path: Path):
+    robot = RobotSettings(host="192.0.2.10", port=50000 + os.getpid() % 10000)
+    first = AddressLock(robot.host, robot.port, os.getpid())
+    assert first.take() is None
+    words = rf"in use by another gestureapp \(process {os.getpid()}\): close that one"
+    with (
+        pytest.raises(RobotInUse, match=words),
+        running_cell(replace(Settings(), robot=robot), tmp_path),
+    ):
+        pass
+    first.give_back()
+    assert list(tmp_path.iterdir()) == []
 
 
 @pytest.mark.process

@@ -6,7 +6,6 @@ without a thread; ``run`` is the thread. Nothing here waits for window, disk or 
 
 import queue
 import threading
-from collections import deque
 from collections.abc import Callable
 from dataclasses import replace
 
@@ -21,9 +20,10 @@ from gestureapp.cell.inputs import (
 )
 from gestureapp.cell.machine import MachineState, Rules, step
 from gestureapp.cell.readiness import Facts, find_blockers
-from gestureapp.cell.records import Json, Record, Recorder, Topic, fields_of
+from gestureapp.cell.records import Record, Recorder, Topic, fields_of
 from gestureapp.cell.robot_memory import RobotMemory, direction_of, events_of, robot_fields
-from gestureapp.cell.snapshot import Blocker, CellState, EventLine, RecordingView, Snapshot
+from gestureapp.cell.snapshot import Blocker, CellState, RecordingView, Snapshot
+from gestureapp.cell.story import Story
 from gestureapp.cell.words import sentence
 from gestureapp.clock import Clock
 from gestureapp.config import Settings
@@ -46,7 +46,6 @@ RESTART_S = 0.2
 """Between two attempts to start a guardian."""
 SILENT_TICKS = 30
 """A guardian is heard every 0.1 s. Counted in our own ticks: we may have stood still ourselves."""
-KEPT_EVENTS = 50
 
 
 class Control:
@@ -87,7 +86,7 @@ class Control:
         self._settings, self._field = settings, field
         self._recogniser, self._model, self._model_problem = recogniser, model, model_problem
         self._start_guardian, self._gui_seen_s = start_guardian, gui_seen_s
-        self._record, self._clock, self._wall_clock = record, clock, wall_clock
+        self._record, self._clock = record, clock
         self._rules = Rules(site.drive_mode, site.stop_on_right_lost, bool(settings.robot.host))
         self._inbox: queue.SimpleQueue[Input] = queue.SimpleQueue()
         self._trackers = {
@@ -104,7 +103,7 @@ class Control:
         self._n_silent = 0
         self._owed_stop: m.Stop | None = None
         self._recognition: Recognition | None = None
-        self._lines: deque[EventLine] = deque(maxlen=KEPT_EVENTS)
+        self._story = Story(record, wall_clock)
         self._judged_s = float("-inf")
         self._now_s = self._ticked_s = clock()
         self.n_overruns = 0
@@ -243,7 +242,7 @@ class Control:
         is_awaited = not s.is_at_rest and not s.is_stop_unconfirmed
         self._n_silent += 1
         if self._guardian is not None and is_awaited and self._n_silent > SILENT_TICKS:
-            text = "the guardian process is silent; the robot is held by a new one"
+            text = "the guardian process is silent; a new one holds the robot first"
             self._guardian_gone(e.GuardianGone(self._now_s, text))
 
     def _guardian_gone(self, gone: e.GuardianGone) -> None:
@@ -338,9 +337,7 @@ class Control:
                 self._say(effect)
 
     def _say(self, said: e.Say) -> None:
-        self._lines.append(EventLine(self._now_s, self._wall_clock(), said.text, said.is_alarm))
-        fields: dict[str, Json] = {"text": said.text, "is_alarm": said.is_alarm}
-        self._record(Record(Topic.EVENT, self._now_s, fields))
+        self._story.say(said, self._now_s)
 
     # What stands against arming, and what the window sees.
 
@@ -387,7 +384,7 @@ class Control:
             recognition=recognition,
             direction=direction_of(label) if label is not None else None,
             robot=self._robot.view(self._now_s),
-            events=tuple(self._lines),
+            events=self._story.lines,
             is_simulation=settings.is_simulation,
             recording=RecordingView(),
             person=settings.person.name,

@@ -169,7 +169,7 @@ class GuardianLink:
             for line in lines:
                 self._hand_on(line)
         if not self._is_closing:
-            self._on_lost("the guardian process has ended; the robot is held by a new one")
+            self._on_lost("the guardian process has ended; a new one holds the robot first")
 
     def _hand_on(self, line: bytes) -> None:
         message = m.decode(line)

@@ -86,7 +86,7 @@ def _sensor_blockers(facts: Facts) -> Iterator[Blocker]:
         if facts.stop_seen_s is not None:
             times = f"{facts.stop_seen_s:.1f} s, {facts.stop_wanted_s:.1f} s are needed"
             text = f"left arm is in the stop posture for {times}"
-        yield Blocker("left_stop", text, "hold the left arm level")
+        yield Blocker("left_stop", text, "lower the left arm and hold it level")
 
 
 def _own_blockers(facts: Facts) -> Iterator[Blocker]:

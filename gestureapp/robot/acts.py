@@ -21,6 +21,9 @@ class Did(Enum):
     """Kinds of acts."""
 
     STARTED = "started"
+    MOVES = "moves"
+    ARRIVED = "arrived"
+    """Or not begun: no command is open any more."""
     STOPPING = "stopping"
     STANDS = "stands"
     UNCONFIRMED = "unconfirmed"
@@ -82,6 +85,11 @@ class Unseen:
 def act_of(message: m.FromGuardian, run: str, wall_s: float, could_move: bool) -> Act | None:
     """The act that a message tells of; None when it is none. Stops carry their own time."""
     match message:
+        case m.CommandSent():
+            text = f"increment {message.activation_id}, limited by {message.limited_by}"
+            return Act(Did.MOVES, run, wall_s, message.t_s, text, could_move=True)
+        case m.MotionEnded() | m.CommandRefused():
+            return Act(Did.ARRIVED, run, wall_s, 0.0, f"increment {message.activation_id}")
         case m.StopAsked():
             text, reason = message.text, message.reason.value
             return Act(Did.STOPPING, run, wall_s, message.t_s, text, reason, could_move)
@@ -119,6 +127,8 @@ def find_unseen(lines: Iterable[str]) -> Unseen | None:
         if (act := read_act(line)) is not None:
             runs.setdefault(act.run, []).append(act)
     found = [unseen for acts in runs.values() if (unseen := _unseen_in(acts)) is not None]
+    if runs and (cut_short := _cut_short(list(runs.values())[-1])) is not None:
+        return cut_short
     return max(found, key=lambda unseen: unseen.stop.wall_s, default=None)
 
 
@@ -138,6 +148,13 @@ def _unseen_in(acts: list[Act]) -> Unseen | None:
         if is_unseen:
             return Unseen(act, _outcome(stands, {later.did for later in acts[i:]}))
     return None
+
+
+def _cut_short(acts: list[Act]) -> Unseen | None:
+    """Of the last guardian: it ended, as its application, while a move was open."""
+    if acts[-1].did is not Did.MOVES:
+        return None
+    return Unseen(acts[-1], "nothing stopped it here: program and guardian had ended")
 
 
 def _outcome(stands: Act | None, after: set[Did]) -> str:

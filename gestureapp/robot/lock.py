@@ -57,6 +57,8 @@ class InUse:
 
     text: str
     remedy: str
+    is_left_over: bool = False
+    """Its application is gone; a guardian finishes a stop and ends."""
 
 
 class AddressLock:
@@ -106,7 +108,7 @@ class AddressLock:
         if _is_alive(application):
             return InUse(f"{text} (process {application})", "close that one")
         text = f"{text}, which is gone; its guardian (process {guardian}) stops the robot"
-        return InUse(text, "wait, or end that process")
+        return InUse(text, "wait, or end that process", is_left_over=True)
 
     def _holder(self) -> tuple[int, int]:
         """Process numbers of application and guardian; zeros where they cannot be told."""
@@ -118,6 +120,14 @@ class AddressLock:
                     application, _, guardian = name.removeprefix(before).partition("-by-")
                     return int(application), int(guardian)
         return 0, 0
+
+
+def find_other(host: str, port: int) -> InUse | None:
+    """The application that has this robot now; None when nobody has it or will have it soon."""
+    lock = AddressLock(host, port, os.getpid())
+    in_use = lock.take()
+    lock.give_back()
+    return None if in_use is None or in_use.is_left_over else in_use
 
 
 def _bound(name: str) -> socket.socket:

@@ -35,6 +35,22 @@ def found(*acts):
     return find_unseen(f"2026-11-23 14:03:12,345 WARNING {act.line}\n" for act in acts)
 
 
+MOVES, ARRIVED = a(Did.MOVES, 90.0, could_move=True), a(Did.ARRIVED, 95.0)
+
+
+def test_a_guardian_that_ended_with_its_application_while_the_robot_moved_is_told():
+    unseen = found(STARTED, MOVES)
+    assert unseen is not None
+    assert (unseen.stop, unseen.outcome.partition(":")[0]) == (MOVES, "nothing stopped it here")
+    assert found(STARTED, MOVES, ARRIVED) is None
+    assert found(STARTED, MOVES, STOPPING, STANDS) is None
+
+
+def test_a_guardian_that_was_replaced_while_the_robot_moved_is_no_news():
+    follower = [replace(act, run="8") for act in (STARTED, STOPPING, STANDS, ENDED)]
+    assert found(STARTED, MOVES, *follower) is None
+
+
 @given(ACTS)
 def test_an_act_is_one_line_and_comes_back_from_it(act):
     assert len(act.line.splitlines()) == 1

@@ -8,7 +8,7 @@ import sys
 import pytest
 
 from gestureapp.children import child_environment
-from gestureapp.robot.lock import AddressLock, InUse
+from gestureapp.robot.lock import AddressLock, InUse, find_other
 
 pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="abstract socket names")
 
@@ -114,3 +114,16 @@ def test_a_name_that_somebody_else_has_taken_is_in_use_all_the_same(lock):
     assert in_use == InUse(
         f"the robot at 192.0.2.10:{PORT} is in use by another gestureapp", "close that one"
     )
+
+
+def test_another_application_that_has_the_robot_is_found_and_one_that_is_gone_is_not(lock, holder):
+    other = find_other("192.0.2.10", PORT)
+    assert other is not None
+    assert str(os.getpid()) in other.text
+    holder.kill()
+    holder.wait(LIMIT_S)
+    assert find_other("192.0.2.10", PORT) is None
+    gone = subprocess.Popen([sys.executable, "-c", ""])
+    gone.wait(LIMIT_S)
+    assert lock(application=gone.pid).take() is None
+    assert find_other("192.0.2.10", PORT) is None, "its guardian lets go by itself"
