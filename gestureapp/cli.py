@@ -1,7 +1,7 @@
 """The command line: one subcommand is one call. No command moves a robot.
 
 Exit codes: 0 fine, 1 failed, 2 usage, 3 hardware not found, 4 data damaged but recovered. An error
-is one line on standard error that names the cause and the remedy.
+is one line on standard error that names the cause and the remedy; wrong settings are a line each.
 """
 
 import argparse
@@ -9,24 +9,30 @@ import json
 import logging
 import os
 import sys
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from gestureapp import __version__
 
 if TYPE_CHECKING:  # children start quickly only when nothing heavy is imported with the parser
+    from gestureapp.errors import GestureAppError
     from gestureapp.window_port import OpenWindow
 
 FINE, FAILED, USAGE = 0, 1, 2
 
 
-def main(arguments: Sequence[str] | None = None, open_window: "OpenWindow | None" = None) -> int:
+def main(
+    arguments: Sequence[str] | None = None,
+    open_window: "OpenWindow | None" = None,
+    show_refusal: Callable[[str], None] | None = None,
+) -> int:
     """Run one command and return its exit code.
 
     Args:
         arguments: Without the program's name; those of the process when None.
         open_window: Opens the application's window; without it only the other commands exist.
+        show_refusal: Shows why the application did not start to somebody without a terminal.
     """
     arguments = sys.argv[1:] if arguments is None else arguments
     if list(arguments) == ["guardian"]:  # must answer in a few hundredths of a second
@@ -45,8 +51,7 @@ def main(arguments: Sequence[str] | None = None, open_window: "OpenWindow | None
             return _fault_subject(options, open_window)
         return _application(options, open_window)
     except GestureAppError as error:
-        sys.stderr.write(f"gestureapp: {error}\n")
-        return FAILED
+        return _refused(error, options, show_refusal)
     except BrokenPipeError:  # whoever read our output has gone; nobody is left to be told
         sys.stdout = open(os.devnull, "w", encoding="utf-8")  # noqa: SIM115  until the very end
         return FAILED
@@ -60,6 +65,21 @@ def main(arguments: Sequence[str] | None = None, open_window: "OpenWindow | None
         return FAILED
     except KeyboardInterrupt:
         return 130
+
+
+def _refused(
+    error: "GestureAppError",
+    options: argparse.Namespace,
+    show_refusal: Callable[[str], None] | None,
+) -> int:
+    for line in str(error).splitlines():
+        sys.stderr.write(f"gestureapp: {line}\n")
+    is_application = options.run is None and not {"what", "subject_config"} & set(vars(options))
+    # Runs that end by themselves have nobody who would put the message away.
+    is_attended = is_application and options.exit_after is None
+    if show_refusal and is_attended and not (sys.stdout.isatty() or sys.stderr.isatty()):
+        show_refusal(str(error))
+    return FAILED
 
 
 def _parser(has_window: bool) -> argparse.ArgumentParser:
@@ -175,6 +195,8 @@ def _application(options: argparse.Namespace, open_window: "OpenWindow | None") 
         sys.stderr.write(f"gestureapp: {finding}\n")
     demo = DemoOptions() if options.demo else None
     with running_cell(settings, data_folder(options.data_dir), demo) as running:
+        for finding in findings:
+            running.cell.tell(str(finding))
         return open_window(running, options.exit_after)
 
 

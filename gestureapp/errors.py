@@ -5,15 +5,18 @@ Exceptions are for "this call could not do what you asked". The tree:
 
     GestureAppError
       ConfigError(field, value, reason)
+      SettingsRefused(findings)
       SensorError(sensor)            SensorNotFound, SensorBusy, SensorDisconnected
       RobotError                     GuardianLost, RobotInUse
       RecordingError(path)           RecordingInvalid, RecordingIncomplete, DiskFull
       ModelError(path)               ModelInvalid, ModelMismatch, NotEnoughTakes
       WorkerError(worker)            wraps what killed a thread
 
-The text of each is one line that names the thing, the cause and the remedy.
+The text of each is one line that names the thing, the cause and the remedy; that of SettingsRefused
+has one for every finding.
 """
 
+from collections.abc import Sequence
 from pathlib import Path
 
 
@@ -35,6 +38,19 @@ class ConfigError(GestureAppError):
         self.field = field
         self.value = value
         self.reason = reason
+
+
+class SettingsRefused(GestureAppError):
+    """Settings that bear on motion are wrong: without them the robot would go where it must not.
+
+    Attributes:
+        findings: Everything that is wrong with the settings, a line each.
+    """
+
+    def __init__(self, findings: Sequence[str]) -> None:
+        end = "not started: settings that bear on motion are wrong; correct the lines above"
+        super().__init__("\n".join([*findings, end] if len(findings) > 1 else findings))
+        self.findings = tuple(findings)
 
 
 class SensorError(GestureAppError):

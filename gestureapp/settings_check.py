@@ -25,6 +25,11 @@ MAX_KEEP_OUTS: Final = 8
 MAX_NAME_CHARS: Final = 30
 """Of a keep-out: it stands in the window beside its box."""
 
+_OTHER_TABLES: Final = ("left", "right", "person", "schema")
+"""Nothing in them limits motion."""
+
+_SHOWN_CHARS: Final = 60
+
 UNITS: Final[Mapping[str, str]] = {
     "_mm_s": "mm/s",
     "_deg_s": "deg/s",
@@ -51,13 +56,18 @@ class Range:
         return f"{self.low:g} to {self.high:g}"
 
 
+def bears_on_motion(name: str) -> bool:
+    """Whether a setting of this name, known or not, may be meant to limit motion."""
+    return name.strip("'\"").partition(".")[0] not in _OTHER_TABLES
+
+
 @dataclass(frozen=True, slots=True)
 class SettingsFinding:
     """One thing that is wrong with the settings; ``str()`` of it is one line for a person.
 
     Attributes:
         setting: Dotted name, ``robot.speed_mm_s``.
-        text: What is wrong, what is allowed, and what is used instead.
+        text: What is wrong, what is allowed, and the remedy or what is used instead.
         file: Where it stands; None when it is in no file.
         line: Line in that file, from 1; None when it is in no file, or could not be told.
     """
@@ -71,6 +81,11 @@ class SettingsFinding:
         line = "" if self.line is None else f", line {self.line}"
         where = "" if self.file is None else f"{self.file}{line}: "
         return f"{where}{self.setting}: {self.text}"
+
+    @property
+    def is_refused(self) -> bool:
+        """Whether nothing is started with it: it bears on motion, or nobody knows on what."""
+        return bears_on_motion(self.setting)
 
 
 RANGES: Final[Mapping[tuple[type, str], Range]] = {
@@ -131,6 +146,12 @@ PAIRS: Final[tuple[tuple[str, str], ...]] = (
     ("site.rate_min_hz", "site.rate_max_hz"),
 )
 """The first must be below the second."""
+
+MARGINS: Final[Mapping[str, str]] = {
+    "robot.int_radius_mm": "robot.margin_mm",
+    "robot.floor_mm": "robot.margin_mm",
+}
+"""By the first of a pair: more than two of these lie between, or there is no room to move."""
 
 
 def _at_most(new: Any, below: Any) -> bool:  # noqa: ANN401 - a number of the setting's type
@@ -247,14 +268,39 @@ def why_no_keep_outs(boxes: tuple[KeepOutSettings, ...], allowed: Range) -> str:
     """What is wrong with boxes to keep out of, and what is allowed; empty when nothing is."""
     if len(boxes) > MAX_KEEP_OUTS:
         return f"{len(boxes)} are too many; allowed are {MAX_KEEP_OUTS}"
-    for box in boxes:
-        if not box.name.strip() or not box.name.isprintable() or len(box.name) > MAX_NAME_CHARS:
-            return f"{shown(box.name)} is no name; give one of 1 to {MAX_NAME_CHARS} characters"
-        for low, high in zip(box.low_mm, box.high_mm, strict=True):
-            if not (low in allowed and high in allowed and low < high):
-                corners = f"{shown(box.low_mm)} and {shown(box.high_mm)}"
-                rule = f"each number of low_mm below that of high_mm, all {allowed} mm"
-                return f"{shown(box.name)} has the corners {corners}; allowed is {rule}"
+    for i, box in enumerate(boxes):
+        key, text = wrong_in_keep_out(box, allowed)
+        if text:
+            return f"{keep_out_label(i, box.name)}, {key}: {text}"
+    return ""
+
+
+def wrong_in_keep_out(box: KeepOutSettings, allowed: Range) -> tuple[str, str]:
+    """The key of a box that is wrong and what is wrong with it; two empty texts when nothing is."""
+    if text := _why_no_name(box.name):
+        return "name", text
+    for key, corner in (("low_mm", box.low_mm), ("high_mm", box.high_mm)):
+        if not all(number in allowed for number in corner):
+            return key, f"{shown(corner)} is not allowed; allowed is {allowed} mm"
+    if not all(low < high for low, high in zip(box.low_mm, box.high_mm, strict=True)):
+        rule = "each number of low_mm must be below that of high_mm"
+        return "low_mm", f"{shown(box.low_mm)} is not below high_mm = {shown(box.high_mm)}; {rule}"
+    return "", ""
+
+
+def keep_out_label(index: int, name: object) -> str:
+    """Which box it is, for a person: its place in its list, and its name if that is one."""
+    is_name = isinstance(name, str) and not _why_no_name(name)
+    return f"box {index + 1} {shown(name)}" if is_name else f"box {index + 1}"
+
+
+def _why_no_name(name: str) -> str:
+    if len(name) > MAX_NAME_CHARS:
+        return (
+            f"{shown(name)} is too long ({len(name)} characters); allowed are 1 to {MAX_NAME_CHARS}"
+        )
+    if not name.strip() or not name.isprintable():
+        return f"{shown(name)} is no name; give one of 1 to {MAX_NAME_CHARS} characters"
     return ""
 
 
@@ -276,13 +322,20 @@ def why_not_simulated(settings: Settings) -> str:
 
 
 def bad_pairs(values: Mapping[str, Any]) -> list[tuple[str, str]]:
-    """The pairs whose first value is not below the second."""
-    return [(low, high) for low, high in PAIRS if not values[low] < values[high]]
+    """The pairs whose first value is not below the second, or leaves no room below it."""
+    return [pair for pair in PAIRS if why_not_below(values, *pair)]
 
 
 def why_not_below(values: Mapping[str, Any], low: str, high: str) -> str:
-    """The sentence for such a pair."""
-    return f"{shown(values[low])} must be below {high} = {shown(values[high])}"
+    """What is wrong with such a pair; empty when nothing is."""
+    if not values[low] < values[high]:
+        return f"{shown(values[low])} must be below {high} = {shown(values[high])}"
+    margin = MARGINS.get(low)
+    if margin is None or not values[low] + 2 * values[margin] >= values[high]:
+        return ""
+    between = f"more than 2 times {margin} = {shown(values[margin])}{_unit_text(margin)}"
+    text = f"{shown(values[low])} leaves no room to {high} = {shown(values[high])}"
+    return f"{text}; {between} must lie between them"
 
 
 def why_wider(name: str, new: object, limit: object) -> str:
@@ -304,14 +357,22 @@ def unit_of(name: str) -> str:
 def shown(value: object) -> str:
     """A value as it may stand in a line: short, and without line breaks."""
     if isinstance(value, tuple | list):
-        text = f"[{', '.join(shown(item) for item in value[:4])}{', …' * (len(value) > 4)}]"
-    elif isinstance(value, bool):
-        text = str(value).lower()
-    elif isinstance(value, KeepOutSettings):
-        text = shown(value.name)
-    else:
-        text = repr(value)
-    return text if len(text) <= 60 else f"{text[:57]}…"
+        items = ["[…]" if isinstance(item, list) else shown(item) for item in value[:5]]
+        return f"[{_joined(items)}]"
+    if isinstance(value, dict):
+        return "a table"
+    if isinstance(value, bool):
+        return str(value).lower()
+    text = repr(value.name if isinstance(value, KeepOutSettings) else value)
+    return text if len(text) <= _SHOWN_CHARS else f"{text[: _SHOWN_CHARS - 3]}…"
+
+
+def _joined(items: list[str]) -> str:
+    """As many whole items as fit, four at most, and whether there are more."""
+    kept = items[:4]
+    while len(kept) > 1 and len(", ".join(kept)) > _SHOWN_CHARS:
+        kept.pop()
+    return ", ".join(kept) + ", …" * (len(kept) < len(items))
 
 
 def _unit_text(name: str) -> str:

@@ -1,7 +1,8 @@
 """Settings from TOML files in layers: built-in < site file < user file < the file named by hand.
 
-A wrong value never stops the application: it is reported with its file and line, and the layer
-below holds. A file that is no TOML at all does stop it, in one line.
+What is wrong is reported with its file and line. Where it bears on motion, nothing is started: a
+limit that was asked for must not be missing unseen. Elsewhere the layer below holds. A file that is
+no TOML at all stops the start, too.
 """
 
 import difflib
@@ -16,17 +17,24 @@ from types import UnionType
 from typing import Any, Final, get_args, get_origin, get_type_hints
 
 from gestureapp.config import SCHEMA_VERSION, KeepOutSettings, RobotSettings, Settings
-from gestureapp.errors import ConfigError
+from gestureapp.errors import ConfigError, SettingsRefused
 from gestureapp.settings_check import (
+    MARGINS,
+    MAX_KEEP_OUTS,
+    RANGES,
     SettingsFinding,
     bad_pairs,
+    bears_on_motion,
     check_settings,
+    keep_out_label,
     named_values,
     shown,
     why_not_below,
     why_out_of_range,
     why_wider,
+    wrong_in_keep_out,
 )
+from gestureapp.settings_lines import lines_of
 from gestureapp.settings_text import default_settings_text, settings_text
 
 __all__ = [
@@ -34,14 +42,16 @@ __all__ = [
     "check_settings",
     "default_settings_text",
     "load_settings",
+    "read_settings",
     "settings_text",
 ]
 
 SCHEMA_KEY: Final = "schema"
 _KEEP_OUTS: Final = "robot.keep_outs"
+_BOX: Final = '{ name = "…", low_mm = [x, y, z], high_mm = [x, y, z] }'
+_CORRECT: Final = "correct it, or take it out"
 _MAX_BYTES: Final = 100_000
 """A settings file has some thousand bytes; more is a file taken by mistake."""
-_MAX_STATEMENT_LINES: Final = 50
 _LINE_IN_MESSAGE: Final = re.compile(r"\(at line (\d+), column \d+\)")
 _AT_END: Final = "(at end of document)"
 
@@ -53,7 +63,26 @@ class _WrongType(Exception):
 def load_settings(
     files: Sequence[Path], named: Path | None = None
 ) -> tuple[Settings, list[SettingsFinding]]:
-    """Read the layers, lowest first, and say what was wrong in them.
+    """Read the layers, lowest first, and say what was wrong in them that does not bear on motion.
+
+    Args:
+        files: As for ``read_settings``.
+        named: As for ``read_settings``.
+
+    Raises:
+        ConfigError: a file cannot be read, is not UTF-8, is not TOML, or has another schema.
+        SettingsRefused: something that bears on motion is wrong.
+    """
+    settings, found = read_settings(files, named)
+    if any(finding.is_refused for finding in found):
+        raise SettingsRefused([str(finding) for finding in found])
+    return settings, found
+
+
+def read_settings(
+    files: Sequence[Path], named: Path | None = None
+) -> tuple[Settings, list[SettingsFinding]]:
+    """Read the layers, lowest first, and say what was wrong in them, whatever it bears on.
 
     Args:
         files: The site's file, then the user's. One that does not exist is a layer without
@@ -74,7 +103,7 @@ def load_settings(
     for file, is_narrowed in layers:
         layer = _Layer(file, settings, is_narrowed)
         settings = layer.merged()
-        found += layer.found
+        found += sorted(layer.found, key=lambda finding: finding.line or 0)
     return settings, found
 
 
@@ -98,7 +127,9 @@ class _Layer:
         values = below | dict(self._accepted(below))
         for low, high in bad_pairs(values):
             self._report_pair(values, low, high)
-            values |= {low: below[low], high: below[high]}
+        while bad := bad_pairs(values):  # a margin that is taken back may be too much for another
+            for low, high in bad:
+                values |= {name: below[name] for name in _with_margin(low, high)}
         tables = {}
         for table in _table_names():
             start = f"{table}."
@@ -122,7 +153,7 @@ class _Layer:
             if key == SCHEMA_KEY:
                 continue
             if key not in known:
-                self._report(key, f"unknown{_did_you_mean(key, known)}; it is left out")
+                self._report_unknown(key, key, known)
             elif not isinstance(table, dict):
                 self._report(key, f"must be a table; write [{key}] on a line of its own")
             else:
@@ -136,7 +167,7 @@ class _Layer:
         for key, raw in items.items():
             name = f"{table}.{key}"
             if key not in hints:
-                self._report(name, f"unknown{_did_you_mean(key, list(hints))}; it is left out")
+                self._report_unknown(name, key, list(hints))
                 continue
             if name == _KEEP_OUTS:
                 yield name, self._keep_outs(raw, below[name])
@@ -152,46 +183,55 @@ class _Layer:
                 if not text:
                     yield name, value
                     continue
-            self._report(name, f"{text}; {shown(_plain(below[name]))} is used")
+            self._report(name, f"{text}; {_instead(name, below)}")
 
     def _keep_outs(
         self, raw: object, below: tuple[KeepOutSettings, ...]
     ) -> tuple[KeepOutSettings, ...]:
-        """Those below and those of this file.
-
-        Raises:
-            ConfigError: one is wrong. Left out, the robot would go where somebody forbade it.
-        """
+        """Those below and those of this file that are right."""
         boxes = list(below)
+        if not isinstance(raw, list | dict):
+            text = f"{shown(raw)} is not allowed; allowed is a list, [{_BOX}, …]"
+            self._report(_KEEP_OUTS, f"{text}; correct it")
+            return below
         for i, item in enumerate(raw if isinstance(raw, list) else [raw]):
-            try:
-                box = _keep_out(item, self._file.parent)
-            except _WrongType as wrong:
-                text = f"{shown(item)} is not allowed; allowed is {wrong}"
-            else:
-                boxes += [box] if box not in boxes else []
-                text = why_out_of_range(RobotSettings, "keep_outs", tuple(boxes))
+            box, key, text = _keep_out(item)
+            if box is not None and box not in boxes:
+                boxes.append(box)
+                if len(boxes) == MAX_KEEP_OUTS + 1:
+                    key, text = "", f"too many; allowed are {MAX_KEEP_OUTS} of all layers together"
             if text:
-                line = self._line(f"{_KEEP_OUTS}.{i}") or self._line(_KEEP_OUTS)
-                where = self._file if line is None else f"{self._file}, line {line}"
-                raise ConfigError(_KEEP_OUTS, "as given", f"{where}: {text}")
-        return tuple(boxes)
+                label = keep_out_label(i, item.get("name") if isinstance(item, dict) else None)
+                text = f"{label}{f', {key}' if key else ''}: {text}; correct it"
+                place = f"{_KEEP_OUTS}.{i}"
+                self._report(_KEEP_OUTS, text, (f"{place}.{key}", place, f"{_KEEP_OUTS}.{key}"))
+        return tuple(boxes[:MAX_KEEP_OUTS])
 
     def _report_pair(self, values: Mapping[str, Any], low: str, high: str) -> None:
-        here = low if low in self._line_table() else high
+        names = _with_margin(low, high)
+        if {finding.setting for finding in self.found} & set(names):
+            return  # one of them is not used anyway
+        here = next((name for name in names if name in self._line_table()), low)
         below = {name: value for name, _, value in named_values(self._below)}
-        kept = f"{shown(below[low])} and {shown(below[high])} are used"
-        self._report(here, f"{low} = {why_not_below(values, low, high)}; {kept}")
+        text = f"{'' if here == low else f'{low} = '}{why_not_below(values, low, high)}"
+        self._report(here, f"{text}; {_instead(here, below)}")
 
-    def _report(self, name: str, text: str) -> None:
-        self.found.append(SettingsFinding(_short(name), text, self._file, self._line(name)))
+    def _report_unknown(self, name: str, key: str, known: Sequence[str]) -> None:
+        end = _CORRECT if bears_on_motion(name) else "it is left out"
+        self._report(name, f"unknown{_did_you_mean(key, known)}; {end}")
+
+    def _report(self, name: str, text: str, places: Sequence[str] = ()) -> None:
+        """Note a finding; its line is that of the first of these places with one, or its own."""
+        lines = (self._line(place) for place in (*places, name))
+        line = next((line for line in lines if line is not None), None)
+        self.found.append(SettingsFinding(_short(name), text, self._file, line))
 
     def _line(self, name: str) -> int | None:
         return self._line_table().get(name)
 
     def _line_table(self) -> Mapping[str, int]:
         if self._lines is None:
-            self._lines = _lines_of(self._text)
+            self._lines = lines_of(self._text)
         return self._lines
 
 
@@ -276,11 +316,26 @@ _KIND_WORDS: Final[Mapping[type, str]] = {
 }
 
 
-def _keep_out(raw: object, folder: Path) -> KeepOutSettings:
+def _keep_out(raw: object) -> tuple[KeepOutSettings | None, str, str]:
+    """A box, or None, the key that is wrong in it (empty for the whole) and what is wrong."""
+    if not isinstance(raw, dict):
+        return None, "", f"{shown(raw)} is not allowed; allowed is {_BOX}"
     hints = get_type_hints(KeepOutSettings)
-    if not isinstance(raw, dict) or set(raw) != set(hints):
-        raise _WrongType('name = "…", low_mm = [x, y, z] and high_mm = [x, y, z]')
-    return KeepOutSettings(**{key: _converted(raw[key], hints[key], folder) for key in hints})
+    for key in raw:
+        if key not in hints:
+            return None, _short(key), f"unknown{_did_you_mean(key, list(hints))}; a box is {_BOX}"
+    values: dict[str, Any] = {}
+    for key, hint in hints.items():
+        if key not in raw:
+            return None, key, f"missing; a box is {_BOX}"
+        try:
+            values[key] = _converted(raw[key], hint, Path())
+        except _WrongType:
+            allowed = _KIND_WORDS[str] if hint is str else "a list of 3 numbers, mm: [x, y, z]"
+            return None, key, f"{shown(raw[key])} is not allowed; allowed is {allowed}"
+    box = KeepOutSettings(**values)
+    key, text = wrong_in_keep_out(box, RANGES[RobotSettings, "keep_outs"])
+    return None if text else box, key, text
 
 
 def _number(raw: object) -> float:
@@ -309,6 +364,17 @@ def _file_path(raw: object, folder: Path) -> Path | None:
     return folder / Path(raw) if raw else None
 
 
+def _with_margin(low: str, high: str) -> tuple[str, ...]:
+    """The names of a pair, and of the margin that must fit between if there is one."""
+    return (low, high, MARGINS[low]) if low in MARGINS else (low, high)
+
+
+def _instead(name: str, below: Mapping[str, Any]) -> str:
+    """What is used instead of a wrong value, or would be without it."""
+    used = f"{shown(_plain(below[name]))} is used"
+    return f"{_CORRECT}: then {used}" if bears_on_motion(name) else used
+
+
 def _plain(value: object) -> object:
     """A setting as it would stand in the file."""
     if isinstance(value, Enum):
@@ -324,53 +390,3 @@ def _did_you_mean(key: str, known: Sequence[str]) -> str:
 def _short(value: object) -> str:
     text = value if isinstance(value, str) and value.isprintable() else repr(value)
     return text if len(text) <= 60 else f"{text[:57]}…"
-
-
-def _lines_of(text: str) -> Mapping[str, int]:
-    """The line of every key, by dotted name, from 1.
-
-    The parser gives no lines, but any statement of a valid file is a valid file by itself: lines
-    are added until they parse, and the keys found there stand on the first of them. After a
-    statement of absurd length the table just ends.
-    """
-    lines: dict[str, int] = {}
-    table: tuple[str, ...] = ()
-    n_of: dict[tuple[str, ...], int] = {}
-    statement, start = "", 1
-    for number, line in enumerate(text.split("\n"), 1):
-        if not statement:
-            start = number
-        statement += line + "\n"
-        try:
-            found = tomllib.loads(statement)
-        except ValueError:
-            if number - start >= _MAX_STATEMENT_LINES:
-                return lines
-            continue
-        paths = list(_paths(found))
-        if statement.lstrip().startswith("["):
-            table = paths[0] if paths else ()
-            if statement.lstrip().startswith("[["):
-                n_of[table] = n_of.get(table, -1) + 1
-                table = (*table, str(n_of[table]))
-            paths = [()]
-        statement = ""
-        for path in paths:
-            _note(lines, (*table, *path), start)
-    return lines
-
-
-def _note(lines: dict[str, int], path: Sequence[str], line: int) -> None:
-    for n in range(1, len(path) + 1):
-        lines.setdefault(".".join(path[:n]), line)
-
-
-def _paths(found: Mapping[str, Any]) -> Iterator[tuple[str, ...]]:
-    """The dotted paths to everything in a parsed statement."""
-    for key, value in found.items():
-        inner = value[-1] if isinstance(value, list) and value else value
-        if isinstance(inner, dict) and inner:
-            for path in _paths(inner):
-                yield (key, *path)
-        else:
-            yield (key,)

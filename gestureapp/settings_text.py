@@ -28,7 +28,7 @@ def settings_text(settings: Settings) -> str:
     Comments come from the settings classes' own descriptions, ranges from the checked table.
     """
     lines = [
-        "# A wrong value is reported with its line, and the one of the layer below is used.",
+        "# What is wrong in site, robot or joints stops the start; elsewhere it is reported only.",
         "# Layers: built-in, the site's file, the user's; a later one only narrows motion limits.",
         f"schema = {SCHEMA_VERSION}",
     ]

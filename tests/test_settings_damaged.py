@@ -7,9 +7,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from gestureapp.config import Settings
-from gestureapp.errors import ConfigError
+from gestureapp.errors import ConfigError, SettingsRefused
 from gestureapp.settings_check import named_values
-from gestureapp.settings_file import check_settings, load_settings
+from gestureapp.settings_file import check_settings, load_settings, read_settings
 
 
 @pytest.mark.parametrize(
@@ -32,7 +32,7 @@ def test_a_file_that_is_no_settings_file_is_refused_in_one_line(tmp_path, data, 
     path = tmp_path / "site.toml"
     path.write_bytes(data)
     with pytest.raises(ConfigError) as caught:
-        load_settings([path])
+        read_settings([path])
     assert words in str(caught.value)
     assert str(path) in str(caught.value)
     assert "\n" not in str(caught.value)
@@ -40,7 +40,7 @@ def test_a_file_that_is_no_settings_file_is_refused_in_one_line(tmp_path, data, 
 
 def test_a_file_named_by_hand_must_be_there(tmp_path):
     with pytest.raises(ConfigError, match="cannot be read: No such file"):
-        load_settings([], tmp_path / "absent.toml")
+        read_settings([], tmp_path / "absent.toml")
 
 
 @pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="no named pipes here")
@@ -48,13 +48,13 @@ def test_a_folder_and_a_pipe_are_no_settings_files(tmp_path):
     os.mkfifo(tmp_path / "pipe")
     for path in (tmp_path, tmp_path / "pipe"):
         with pytest.raises(ConfigError, match="not a file"):
-            load_settings([path])
+            read_settings([path])
 
 
 def test_a_statement_of_absurd_length_costs_only_the_line_numbers(tmp_path):
     path = tmp_path / "site.toml"
     path.write_text("schema = 1\n[robot]\nx = [\n" + "1,\n" * 2000 + "]\ntol = 1\n")
-    _, found = load_settings([path])
+    _, found = read_settings([path])
     assert [one.setting for one in found] == ["robot.x", "robot.tol"]
     assert found[1].line is None
     assert str(found[1]).startswith(f"{path}: robot.tol: ")
@@ -66,12 +66,18 @@ def test_any_bytes_give_settings_or_one_line(tmp_path_factory, data):
     path = tmp_path_factory.getbasetemp() / "rubbish.toml"
     path.write_bytes(data)
     try:
-        loaded, found = load_settings([path])
+        loaded, found = read_settings([path])
     except ConfigError as error:
         lines = [str(error)]
     else:
         assert check_settings(loaded) == []
         lines = [str(finding) for finding in found]
+        if any(finding.is_refused for finding in found):
+            with pytest.raises(SettingsRefused) as caught:
+                load_settings([path])
+            assert list(caught.value.findings) == lines
+        else:
+            assert load_settings([path]) == (loaded, found)
     assert all(len(line.splitlines()) == 1 for line in lines)
 
 
@@ -93,8 +99,7 @@ _TOML_VALUES = st.sampled_from(
     ]
 )
 _KEYS = st.sampled_from(
-    [name for name, _, _ in named_values(Settings()) if name != "robot.keep_outs"]
-    + ["left.x", "x", "schema"]
+    [name for name, _, _ in named_values(Settings())] + ["left.x", "robot.x", "x", "schema"]
 )
 
 
@@ -104,7 +109,7 @@ def test_any_values_give_allowed_settings_and_the_right_lines(tmp_path_factory, 
     path = tmp_path_factory.getbasetemp() / "values.toml"
     items = {"schema": "1"} | {key: value for key, value in items.items() if key != "schema"}
     path.write_text("".join(f"{key} = {value}\n" for key, value in items.items()))
-    loaded, found = load_settings([path])
+    loaded, found = read_settings([path])
     assert check_settings(loaded) == []
     lines = {key: number for number, key in enumerate(items, 1)}
     for finding in found:

@@ -21,7 +21,7 @@ from gestureapp.settings_check import NARROWER, PAIRS, RANGES, named_values
 from gestureapp.settings_file import (
     check_settings,
     default_settings_text,
-    load_settings,
+    read_settings,
     settings_text,
 )
 
@@ -46,12 +46,12 @@ def _site(text):
 
 
 def test_without_files_the_built_in_settings_hold(tmp_path):
-    assert load_settings([]) == (Settings(), [])
-    assert load_settings([tmp_path / "absent.toml"]) == (Settings(), [])
+    assert read_settings([]) == (Settings(), [])
+    assert read_settings([tmp_path / "absent.toml"]) == (Settings(), [])
 
 
 def test_the_default_text_gives_the_default_settings_back(layer):
-    assert load_settings([layer(default_settings_text())]) == (Settings(), [])
+    assert read_settings([layer(default_settings_text())]) == (Settings(), [])
 
 
 def test_the_default_text_explains_every_setting_with_unit_and_range():
@@ -73,7 +73,7 @@ def test_the_default_text_explains_every_setting_with_unit_and_range():
 def test_later_layers_lie_over_earlier_ones(layer):
     site = layer(_site('[robot]\nhost = "10.0.0.2"\ntool = 3\n[left]\nport = "COM3"'))
     user = layer(_site('[left]\nport = "COM7"\n[person]\nname = "Ada"'), "user.toml")
-    loaded, found = load_settings([site, user])
+    loaded, found = read_settings([site, user])
     assert found == []
     assert (loaded.robot.host, loaded.robot.tool) == ("10.0.0.2", 3)
     assert (loaded.left.port, loaded.person.name) == ("COM7", "Ada")
@@ -88,7 +88,7 @@ def test_every_kind_of_value_is_taken(layer):
             'rx_range_deg = [90, 270.5]\n[person]\nmodel = "ada.json"'
         )
     )
-    loaded, found = load_settings([path])
+    loaded, found = read_settings([path])
     assert found == []
     assert loaded.site == replace(
         SiteSettings(),
@@ -106,7 +106,7 @@ def test_every_kind_of_value_is_taken(layer):
 def test_the_file_named_by_hand_is_the_top_layer(layer):
     site = layer(_site("[robot]\ntool = 3\nframe = 0"))
     named = layer(_site("[robot]\ntool = 4"), "mine.toml")
-    loaded, found = load_settings([site], named)
+    loaded, found = read_settings([site], named)
     assert found == []
     assert (loaded.robot.tool, loaded.robot.frame) == (4, 0)
 
@@ -114,7 +114,7 @@ def test_the_file_named_by_hand_is_the_top_layer(layer):
 def test_a_byte_order_mark_and_windows_lines_are_read(tmp_path):
     path = tmp_path / "site.toml"
     path.write_bytes(b"\xef\xbb\xbfschema = 1\r\n[robot]\r\ntool = 3\r\ntoool = 4\r\n")
-    loaded, found = load_settings([path])
+    loaded, found = read_settings([path])
     assert loaded.robot.tool == 3
     assert [(finding.setting, finding.line) for finding in found] == [("robot.toool", 4)]
 
@@ -158,14 +158,16 @@ def _tables(owner):
 
 
 def _in_order(made):
-    """The same settings with the two values of every pair the right way round."""
+    """The same settings with the two values of every pair the right way round, and room between."""
     for low, high in PAIRS:
         table = low.partition(".")[0]
         names = [name.partition(".")[2] for name in (low, high)]
         values = sorted(getattr(getattr(made, table), name) for name in names)
         own = replace(getattr(made, table), **dict(zip(names, values, strict=True)))
         made = replace(made, **{table: own})
-    return made
+    robot = made.robot
+    room = min(robot.ext_radius_mm - robot.int_radius_mm, robot.ceiling_mm - robot.floor_mm)
+    return replace(made, robot=replace(robot, margin_mm=min(robot.margin_mm, room / 3)))
 
 
 _ALLOWED = (
@@ -187,7 +189,7 @@ _ALLOWED = (
 def test_any_allowed_settings_survive_being_written_and_read(tmp_path_factory, made):
     path = tmp_path_factory.getbasetemp() / "any.toml"
     path.write_text(settings_text(made), encoding="utf-8")
-    assert load_settings([path]) == (made, [])
+    assert read_settings([path]) == (made, [])
 
 
 @settings(max_examples=50, deadline=None)
@@ -196,7 +198,7 @@ def test_a_user_file_never_widens_what_the_site_allows(tmp_path_factory, site, u
     folder = tmp_path_factory.getbasetemp()
     (folder / "s.toml").write_text(settings_text(site), encoding="utf-8")
     (folder / "u.toml").write_text(settings_text(user), encoding="utf-8")
-    loaded, found = load_settings([folder / "s.toml", folder / "u.toml"])
+    loaded, found = read_settings([folder / "s.toml", folder / "u.toml"])
     assert check_settings(loaded, site) == []
     assert loaded.robot.speed_mm_s == min(site.robot.speed_mm_s, user.robot.speed_mm_s)
     assert loaded.site.trip_level_s == min(site.site.trip_level_s, user.site.trip_level_s)
@@ -224,11 +226,11 @@ def test_a_user_file_never_widens_what_the_site_allows(tmp_path_factory, site, u
 )
 def test_limits_are_allowed_and_what_lies_beyond_is_not(layer, table, name, low, high, step):
     for value in (low, high):
-        loaded, found = load_settings([layer(_site(f"[{table}]\n{name} = {value}"))])
+        loaded, found = read_settings([layer(_site(f"[{table}]\n{name} = {value}"))])
         assert found == []
         assert getattr(getattr(loaded, table), name) == value
     for value in (low - step, high + step):
-        loaded, found = load_settings([layer(_site(f"[{table}]\n{name} = {value}"))])
+        loaded, found = read_settings([layer(_site(f"[{table}]\n{name} = {value}"))])
         assert loaded == Settings()
         assert [(one.setting, one.line) for one in found] == [(f"{table}.{name}", 3)]
         assert f"allowed is {low:g} to {high:g}" in found[0].text
@@ -260,7 +262,7 @@ def test_limits_are_allowed_and_what_lies_beyond_is_not(layer, table, name, low,
 )
 def test_a_wrong_value_is_reported_with_its_line_and_not_used(layer, setting, words):
     path = layer(_site(setting))
-    loaded, found = load_settings([path])
+    loaded, found = read_settings([path])
     assert loaded == Settings()
     assert len(found) == 1
     assert words in found[0].text
@@ -274,7 +276,7 @@ def test_a_wrong_value_is_reported_with_its_line_and_not_used(layer, setting, wo
 def test_a_wrong_value_of_the_user_keeps_the_sites(layer):
     site = layer(_site("[robot]\nspeed_mm_s = 50"))
     user = layer(_site("[robot]\nspeed_mm_s = 'x'"), "user.toml")
-    loaded, found = load_settings([site, user])
+    loaded, found = read_settings([site, user])
     assert loaded.robot.speed_mm_s == 50.0
     assert found[0].text.endswith("50.0 is used")
 
@@ -297,7 +299,7 @@ def test_a_wrong_value_of_the_user_keeps_the_sites(layer):
     ],
 )
 def test_an_unknown_key_is_reported_with_its_line(layer, text, setting, line, words):
-    loaded, found = load_settings([layer(_site(text))])
+    loaded, found = read_settings([layer(_site(text))])
     assert loaded == Settings()
     by_name = {finding.setting: finding for finding in found}
     assert by_name[setting].line == line
@@ -306,7 +308,7 @@ def test_an_unknown_key_is_reported_with_its_line(layer, text, setting, line, wo
 
 def test_every_wrong_thing_is_reported_at_once(layer):
     path = layer(_site("[robot]\ntool = 99\nport = 0\n[site]\nx = 1\n[left]\ngain = 3"))
-    _, found = load_settings([path])
+    _, found = read_settings([path])
     assert [(one.setting, one.line) for one in found] == [
         ("robot.tool", 3),
         ("robot.port", 4),
@@ -327,7 +329,7 @@ def test_every_wrong_thing_is_reported_at_once(layer):
     ],
 )
 def test_two_values_that_do_not_fit_leave_those_below(layer, text, setting, line):
-    loaded, found = load_settings([layer(_site(text))])
+    loaded, found = read_settings([layer(_site(text))])
     assert loaded == Settings()
     assert [(one.setting, one.line) for one in found] == [(setting, line)]
     assert "must be below" in found[0].text
@@ -365,28 +367,28 @@ def test_a_later_layer_may_narrow_a_motion_limit_and_not_widen_it(
     layer, table, name, site, wider, narrower
 ):
     base = layer(_site(f"[{table}]\n{name} = {site}"))
-    by_site, found = load_settings([base])
+    by_site, found = read_settings([base])
     assert found == []
     user = layer(_site(f"[{table}]\n{name} = {wider}"), "user.toml")
-    loaded, found = load_settings([base, user])
+    loaded, found = read_settings([base, user])
     assert loaded == by_site
     assert [(one.file, one.setting, one.line) for one in found] == [(user, f"{table}.{name}", 3)]
     assert "wider than the site allows" in found[0].text
-    assert load_settings([base], user) == (loaded, found)
+    assert read_settings([base], user) == (loaded, found)
     user = layer(_site(f"[{table}]\n{name} = {narrower}"), "user.toml")
-    assert load_settings([base, user])[1] == []
+    assert read_settings([base, user])[1] == []
     assert f"{table}.{name}" in NARROWER
 
 
 def test_an_absent_site_file_leaves_the_built_in_limits_to_the_user(layer, tmp_path):
     user = layer(_site("[robot]\nspeed_mm_s = 200"), "user.toml")
-    loaded, found = load_settings([tmp_path / "absent.toml", user])
+    loaded, found = read_settings([tmp_path / "absent.toml", user])
     assert loaded.robot.speed_mm_s == 100.0
     assert "at most 100.0 mm/s" in found[0].text
 
 
 def test_a_missing_schema_is_reported_and_taken_as_ours(layer):
-    loaded, found = load_settings([layer("[robot]\ntool = 2\n")])
+    loaded, found = read_settings([layer("[robot]\ntool = 2\n")])
     assert loaded.robot.tool == 2
     assert [one.setting for one in found] == ["schema"]
     assert "schema = 1" in found[0].text

@@ -16,9 +16,16 @@ def open_window(
     return run_window(running.cell, running.operator, exit_after_s, driver, running.last_time)
 
 
+def show_refusal(text: str) -> None:
+    """Show why the application did not start, in a message of its own."""
+    from ui.app import show_message
+
+    show_message(text)
+
+
 def main() -> int:
     """The console script."""
-    return cli.main(open_window=open_window)
+    return cli.main(open_window=open_window, show_refusal=show_refusal)
 
 
 if __name__ == "__main__":

@@ -20,7 +20,7 @@ from PySide6.QtCore import (
     qInstallMessageHandler,
 )
 from PySide6.QtGui import QGuiApplication
-from PySide6.QtWidgets import QApplication
+from PySide6.QtWidgets import QApplication, QMessageBox
 
 from gestureapp.cell.controls import CellControls
 from gestureapp.cell.last_time import LastTime
@@ -91,15 +91,32 @@ def run_window(
         cell.shutdown()
 
 
+def show_message(text: str) -> None:
+    """Show why the application did not start until somebody puts it away; not without a screen."""
+    if not _has_screen() or os.environ.get("QT_QPA_PLATFORM") in ("offscreen", "minimal"):
+        return
+    _application()
+    box = QMessageBox()
+    box.setIcon(QMessageBox.Icon.Critical)
+    box.setWindowTitle("gestureapp was not started")
+    box.setTextFormat(Qt.TextFormat.PlainText)
+    box.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
+    box.setText(text)
+    box.exec()
+
+
 def choose_platform() -> None:
     """Take Qt's offscreen platform on a Linux machine without a screen, and say so."""
-    has_choice = "QT_QPA_PLATFORM" in os.environ
-    has_screen = os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY")
-    if sys.platform.startswith("linux") and not has_choice and not has_screen:
+    if "QT_QPA_PLATFORM" not in os.environ and not _has_screen():
         os.environ["QT_QPA_PLATFORM"] = "offscreen"
         sys.stderr.write(
             "No screen (DISPLAY and WAYLAND_DISPLAY are empty): the window is drawn off screen.\n"
         )
+
+
+def _has_screen() -> bool:
+    names = ("DISPLAY", "WAYLAND_DISPLAY")
+    return not sys.platform.startswith("linux") or any(os.environ.get(name) for name in names)
 
 
 def stopping_hook(cell: CellControls, before: ExceptHook) -> ExceptHook:

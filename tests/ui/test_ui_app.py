@@ -8,9 +8,9 @@ from dataclasses import replace
 
 import pytest
 from PySide6.QtCore import QTimer, qWarning
-from PySide6.QtWidgets import QApplication, QLabel
+from PySide6.QtWidgets import QApplication, QLabel, QMessageBox
 
-from ui.app import choose_platform, run_window, stopping_hook
+from ui.app import choose_platform, run_window, show_message, stopping_hook
 
 
 def test_the_window_opens_lives_and_closes_by_itself(qapp, cell, operator):
@@ -93,3 +93,18 @@ def test_the_alarm_bar_is_painted_red(qapp, qtbot, window, cell):
     corner = bar.grab().toImage().pixelColor(1, 1)
     assert corner.red() > 150
     assert corner.green() < 80
+
+
+def test_why_it_did_not_start_is_shown_on_a_screen_and_only_there(qapp, monkeypatch):
+    shown: list[str] = []
+    monkeypatch.setattr(QMessageBox, "exec", lambda box: shown.append(box.text()))
+    monkeypatch.setattr(sys, "platform", "linux")
+    monkeypatch.setenv("DISPLAY", ":0")
+    monkeypatch.setenv("QT_QPA_PLATFORM", "offscreen")
+    show_message("nobody sees it")
+    monkeypatch.delenv("QT_QPA_PLATFORM")
+    show_message("line 3: <b>\nline 4")
+    monkeypatch.delenv("DISPLAY")
+    monkeypatch.delenv("WAYLAND_DISPLAY", raising=False)
+    show_message("nobody sees it")
+    assert shown == ["line 3: <b>\nline 4"]
