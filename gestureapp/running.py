@@ -97,7 +97,7 @@ def running_cell(
         opened.callback(cell.shutdown)
         cell.start()
         if last_time is not None:
-            cell.tell(last_time.text)
+            cell.tell(last_time.event)
         operator = emulators.operator if emulators is not None else None
         yield RunningCell(cell, operator, recorder, emulators, last_time)
 

@@ -1,17 +1,21 @@
-"""Full-width bars above everything else: a stop that was not confirmed, a window that is blind."""
+"""Full-width bars in a row kept for them: a stop not confirmed, a window that is blind."""
 
 from collections.abc import Callable
 
-from PySide6.QtGui import QColor, QPalette
-from PySide6.QtWidgets import QApplication, QVBoxLayout, QWidget
+from PySide6.QtCore import Qt
+from PySide6.QtGui import QColor, QFont, QFontMetrics, QPalette, QResizeEvent
+from PySide6.QtWidgets import QApplication, QSizePolicy, QVBoxLayout, QWidget
 
 from gestureapp.clock import Clock, monotonic
-from ui.labels import plain
+from ui.labels import ElidedLabel, plain
 from ui.theme import TEXT_PX, colours_of, sized
 
 UNCONFIRMED = "ROBOT HAS NOT CONFIRMED THE STOP. USE THE EMERGENCY STOP ON THE PENDANT"
 """Here the words mean the real one, the hardware."""
 _BEEP_EVERY_S = 1.0
+_ALONE_PX, _TOGETHER_PX, _LEAST_PX = 22, 16, 12
+"""Letters of the alarm: alone, above the other bar, and where the window is narrow."""
+_MARGIN_PX = 14
 
 
 class AlarmBars(QWidget):
@@ -27,17 +31,22 @@ class AlarmBars(QWidget):
         self._clock = clock
         self._beep = beep
         self._beeped_s = float("-inf")
-        self._unconfirmed = plain("stopUnconfirmedBar", 22)
+        self._unconfirmed = plain("stopUnconfirmedBar", _ALONE_PX, is_wrapped=False)
         self._unconfirmed.setText(UNCONFIRMED)
         self._unconfirmed.setAccessibleName(UNCONFIRMED)
-        self._blind = plain("blindBar", TEXT_PX + 1)
+        self._unconfirmed.setMinimumWidth(1)  # the letters follow the width, see _fit
+        self._blind = ElidedLabel()
+        self._blind.setObjectName("blindBar")
+        self._blind.setTextFormat(Qt.TextFormat.PlainText)
+        self._blind.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Preferred)
+        sized(self._blind, TEXT_PX + 1, is_bold=True)
         layout = QVBoxLayout(self)
         layout.setContentsMargins(0, 0, 0, 0)
-        layout.setSpacing(2)
-        for bar, size_px in ((self._unconfirmed, 22), (self._blind, TEXT_PX + 1)):
-            sized(bar, size_px, is_bold=True)
+        layout.setSpacing(0)
+        for bar in (self._unconfirmed, self._blind):
+            bar.setAlignment(Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignVCenter)
             bar.setAutoFillBackground(True)
-            bar.setContentsMargins(14, 5, 14, 5)
+            bar.setContentsMargins(_MARGIN_PX, 0, _MARGIN_PX, 0)
             bar.hide()
             layout.addWidget(bar)
         self.hide()
@@ -63,11 +72,28 @@ class AlarmBars(QWidget):
         if reason and (self._blind.isHidden() or self._blind.text() != reason):
             self._paint_red()
             self._blind.setText(reason)
+            self._blind.setToolTip(reason)
+            self._blind.setAccessibleName(reason)
         self._blind.setVisible(bool(reason))
         self._fold()
 
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        """Keep the alarm in one line."""
+        super().resizeEvent(event)
+        self._fit()
+
     def _fold(self) -> None:
+        self._fit()
         self.setVisible(not (self._unconfirmed.isHidden() and self._blind.isHidden()))
+
+    def _fit(self) -> None:
+        """The largest letters in which the alarm has room; above the other bar smaller ones."""
+        size_px = _ALONE_PX if self._blind.isHidden() else _TOGETHER_PX
+        room = self.width() - 2 * _MARGIN_PX
+        while size_px > _LEAST_PX and _alarm_width(self._unconfirmed.font(), size_px) > room:
+            size_px -= 1
+        if size_px != self._unconfirmed.font().pixelSize():
+            sized(self._unconfirmed, size_px, is_bold=True)
 
     def _paint_red(self) -> None:
         colours = colours_of(self.window().palette())
@@ -76,3 +102,9 @@ class AlarmBars(QWidget):
         palette.setColor(QPalette.ColorRole.WindowText, QColor(colours.on_alarm))
         for bar in (self._unconfirmed, self._blind):
             bar.setPalette(palette)
+
+
+def _alarm_width(font: QFont, size_px: int) -> int:
+    font.setPixelSize(size_px)
+    font.setBold(True)
+    return QFontMetrics(font).horizontalAdvance(UNCONFIRMED)

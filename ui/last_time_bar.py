@@ -19,20 +19,27 @@ class LastTimeBar(QWidget):
         sized(self._text, TEXT_PX, is_bold=True)
         button = QPushButton("Put away")
         button.setObjectName("lastTimeAway")
-        button.setAccessibleName("Put away what the guardian did last time")
+        button.setAccessibleName("Put away the notice of the last run")
         button.clicked.connect(self.hide)
         layout = QHBoxLayout(self)
-        layout.setContentsMargins(14, 5, 8, 5)
+        layout.setContentsMargins(14, 2, 8, 2)
         layout.addWidget(self._text, 1)
         layout.addWidget(button)
         self.setAutoFillBackground(True)
         self.hide()
 
-    def tell(self, text: str, on_shown: Callable[[], None]) -> None:
-        """Show a line; ``on_shown`` is called once it is on the screen."""
+    def tell(self, text: str, details: str, on_shown: Callable[[], None]) -> None:
+        """Show a line, with more in its tooltip.
+
+        Args:
+            text: For the operator.
+            details: For whoever looks for the cause.
+            on_shown: Called once the line is on the screen.
+        """
         self._on_shown = on_shown
         self._text.setText(text)
         self._text.setAccessibleName(text)
+        self.setToolTip(f"{text}\n\n{details}")
         self.show()
 
     def showEvent(self, event: QShowEvent) -> None:

@@ -28,6 +28,7 @@ from ui.event_list import EventList
 from ui.gesture_panel import GesturePanel
 from ui.last_time_bar import LastTimeBar
 from ui.motion_panel import MotionPanel
+from ui.notice_row import NoticeRow
 from ui.robot_view import FieldView
 from ui.state_panel import StatePanel
 from ui.status_strip import StatusStrip
@@ -118,7 +119,7 @@ class MainWindow(QMainWindow):
 
     def tell_last_time(self, last_time: LastTime) -> None:
         """Show what the guardian did when no window could, until it is put away."""
-        self._last_time.tell(last_time.text, last_time.note_shown)
+        self._last_time.tell(last_time.text, last_time.details, last_time.note_shown)
 
     def closeEvent(self, event: QCloseEvent) -> None:
         """Stop, disarm, shut down; then close, whatever came of it."""
@@ -145,8 +146,9 @@ class MainWindow(QMainWindow):
         self._blockers.show_blockers(snapshot.blockers)
         is_before = snapshot.state in _BEFORE_A_MOVE
         self._blockers.setVisible(is_before)
-        self._motion.setVisible(not (is_before and snapshot.blockers))
-        self._motion.show_snapshot(snapshot)
+        has_blockers = is_before and bool(snapshot.blockers)
+        self._motion.setVisible(not has_blockers or snapshot.robot.increment is not None)
+        self._motion.show_snapshot(snapshot, is_short=has_blockers)
         self._events.show_events(snapshot.events)
         recognition = snapshot.recognition
         self._gesture.show_recognition(recognition, snapshot.direction)
@@ -215,8 +217,7 @@ class MainWindow(QMainWindow):
         column_of_all.setContentsMargins(0, 0, 0, 0)
         column_of_all.setSpacing(6)
         column_of_all.addWidget(self._strip)
-        column_of_all.addWidget(self._bars)
-        column_of_all.addWidget(self._last_time)
+        column_of_all.addWidget(NoticeRow(self._last_time, self._bars))
         column_of_all.addLayout(body, 1)
         self.setCentralWidget(whole)
         self.setMinimumSize(QSize(*_LEAST).boundedTo(self.screen().availableSize()))

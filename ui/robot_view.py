@@ -3,7 +3,7 @@
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from PySide6.QtCore import QLineF, QPointF, QRectF, QSize, Qt
+from PySide6.QtCore import QLineF, QPointF, QRectF, QSize, QSizeF, Qt
 from PySide6.QtGui import (
     QBrush,
     QColor,
@@ -20,6 +20,7 @@ from PySide6.QtWidgets import QFrame, QSizePolicy, QWidget
 from gestureapp.cell.snapshot import RobotView
 from gestureapp.config import RobotSettings
 from gestureapp.robot.values import Pose, PoseIncrement
+from ui.field_names import NAME_LENGTH, beside, best_place, short_name, within
 from ui.theme import SMALL_PX, TEXT_PX, Colours, colours_of
 from ui.words import end_of, pose_age_text
 
@@ -28,6 +29,8 @@ _PATH_LIMIT = 2000
 """Points kept of the path; at 2 mm each longer than the field is wide."""
 _ROOM_PX = 10
 _LABELLED_MM = 1000
+_TOOL_PX = 9
+"""From the middle of the tool's cross to its ends."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -60,6 +63,8 @@ class FieldView(QFrame):
         self._drawn: tuple[object, ...] = ()
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Expanding)
         self.setAccessibleName("Robot: no position")
+        long_names = [box.name for box in settings.keep_outs if len(box.name) > NAME_LENGTH]
+        self.setToolTip("\n".join(long_names))
 
     def sizeHint(self) -> QSize:
         """Two squares."""
@@ -119,6 +124,8 @@ class _Body:
     area: QRectF
     name: str = ""
     is_round: bool = False
+    is_bound: bool = False
+    """Floor or ceiling: has its name inside, a box beside it."""
 
 
 class _View:
@@ -148,8 +155,9 @@ class _View:
         self._draw_field()
         self._draw_bodies()
         self._draw_axes()
+        self._name_bodies(robot)
+        self._draw_bodies(is_outline=True)
         self._painter.setClipRect(self._frame)
-        self._name_bodies()
         if len(path_mm) > 1:
             self._painter.setPen(QPen(QColor(self._colours.text), 2))
             self._painter.drawPolyline(QPolygonF([self._at(point) for point in path_mm]))
@@ -182,15 +190,16 @@ class _View:
             self._write(label, f"R {radius_mm:.0f}", Qt.AlignmentFlag.AlignRight)
         painter.setBrush(Qt.BrushStyle.NoBrush)
 
-    def _draw_bodies(self) -> None:
-        """What the tool stays out of, hatched, as far as it lies inside the field."""
+    def _draw_bodies(self, *, is_outline: bool = False) -> None:
+        """What the tool stays out of, hatched or in outline, as far as it lies inside the field."""
         painter, inside = self._painter, QPainterPath()
         radius = self._settings.ext_radius_mm * self._scale
         inside.addEllipse(self._frame.center(), radius, radius)
         painter.save()
         painter.setClipPath(inside)
         painter.setPen(QPen(QColor(self._colours.muted), 1))
-        painter.setBrush(QBrush(QColor(self._colours.line), Qt.BrushStyle.BDiagPattern))
+        hatching = QBrush(QColor(self._colours.line), Qt.BrushStyle.BDiagPattern)
+        painter.setBrush(QBrush() if is_outline else hatching)
         for body in self._bodies():
             if self._plane is TOP and body.is_round:
                 painter.drawEllipse(body.area)
@@ -205,9 +214,11 @@ class _View:
         if self._plane is SIDE:
             floor, ceiling = max(-far, s.floor_mm), min(far, s.ceiling_mm)
             if floor > -far:
-                yield _Body(self._area((-far, -far), (far, floor)), f"floor {floor:.0f}")
+                area = self._area((-far, -far), (far, floor))
+                yield _Body(area, f"floor {floor:.0f}", is_bound=True)
             if ceiling < far:
-                yield _Body(self._area((-far, ceiling), (far, far)), f"ceiling {ceiling:.0f}")
+                area = self._area((-far, ceiling), (far, far))
+                yield _Body(area, f"ceiling {ceiling:.0f}", is_bound=True)
             top = min(s.column_top_mm, ceiling)
             if out and top > floor:
                 yield _Body(self._area((-out, floor), (out, top)))
@@ -224,21 +235,47 @@ class _View:
         corner = centre + QPointF(low_mm[0], -low_mm[1]) * scale
         return QRectF(corner, centre + QPointF(high_mm[0], -high_mm[1]) * scale).normalized()
 
-    def _name_bodies(self) -> None:
+    def _name_bodies(self, robot: RobotView) -> None:
         """The names, on patches that keep hatching and axes away from them."""
         self._font.setBold(False)
         self._font.setPixelSize(SMALL_PX - 1)
         self._painter.setFont(self._font)
-        for body in self._bodies():
-            if not body.name:
-                continue
-            patch = QFontMetricsF(self._font).boundingRect(body.name).adjusted(-3, 0, 3, 0)
-            patch.moveCenter(body.area.center())
-            if body.area.left() < self._frame.center().x() < body.area.right():
-                patch.moveLeft(self._frame.center().x() + 6)  # beside the axis and the column
+        for name, patch in self._places_of_names(robot):
             self._painter.fillRect(patch, QColor(self._colours.base))
             self._painter.setPen(QPen(QColor(self._colours.muted), 1))
-            self._painter.drawText(patch, Qt.AlignmentFlag.AlignCenter, body.name)
+            self._painter.drawText(patch, Qt.AlignmentFlag.AlignCenter, name)
+
+    def _places_of_names(self, robot: RobotView) -> Iterator[tuple[str, QRectF]]:
+        """Each name, short, with its patch: off the boxes, the tool and each other if it can be."""
+        metrics = QFontMetricsF(self._font)
+        view = self._frame.adjusted(2, 2, -2, -2)
+        bodies = [body for body in self._bodies() if body.area.intersects(view)]
+        boxes = [body.area for body in bodies if not body.is_bound]
+        kept_free = list(self._corners())
+        if robot.pose is not None:
+            around = QPointF(_TOOL_PX + 2, _TOOL_PX + 2)
+            here = self._at(robot.pose.position_mm)
+            kept_free.append(QRectF(here - around, here + around))
+        for body in bodies:
+            if not body.name:
+                continue
+            name = body.name if body.is_bound else short_name(body.name)
+            size = QSizeF(metrics.horizontalAdvance(name) + 6, metrics.height())
+            if body.is_bound:
+                places = within(size, body.area, view, 6)
+            else:
+                places = beside(size, body.area, view)
+            patch = best_place(places, kept_free, boxes)
+            kept_free.append(patch)
+            yield name, patch
+
+    def _corners(self) -> tuple[QRectF, QRectF]:
+        """Where the axes are named, across and up: free of the field, whatever the tool does."""
+        frame = self._frame
+        return (
+            QRectF(frame.right() - 84, frame.bottom() - 18, 80, 16),
+            QRectF(frame.left() + 4, frame.top() + 2, 80, 16),
+        )
 
     def _draw_axes(self) -> None:
         painter, frame = self._painter, self._frame
@@ -260,14 +297,12 @@ class _View:
             at = centre.x() - _LABELLED_MM * self._scale
             above = QRectF(at - 30, centre.y() - 19, 60, 16)
             self._write(above, f"-{_LABELLED_MM}", Qt.AlignmentFlag.AlignHCenter)
-        # The corners are free of the field, whatever the tool does.
         across, up = (
             f"{names[self._plane.across]}+ \u2192 mm",
             f"{names[self._plane.up]}+ \u2191 mm",
         )
-        low = QRectF(frame.right() - 84, frame.bottom() - 18, 80, 16)
+        low, high = self._corners()
         self._write(low, across, Qt.AlignmentFlag.AlignRight)
-        high = QRectF(frame.left() + 4, frame.top() + 2, 80, 16)
         self._write(high, up, Qt.AlignmentFlag.AlignLeft)
 
     def _draw_plan(self, start: Pose, increment: PoseIncrement) -> None:
@@ -283,8 +318,8 @@ class _View:
     def _draw_tool(self, pose: Pose) -> None:
         here = self._at(pose.position_mm)
         self._painter.setPen(QPen(QColor(self._colours.text), 1.5))
-        self._painter.drawLine(here - QPointF(9, 0), here + QPointF(9, 0))
-        self._painter.drawLine(here - QPointF(0, 9), here + QPointF(0, 9))
+        self._painter.drawLine(here - QPointF(_TOOL_PX, 0), here + QPointF(_TOOL_PX, 0))
+        self._painter.drawLine(here - QPointF(0, _TOOL_PX), here + QPointF(0, _TOOL_PX))
         self._painter.setBrush(QColor(self._colours.text))
         self._painter.drawEllipse(here, 4, 4)
         self._painter.setBrush(Qt.BrushStyle.NoBrush)

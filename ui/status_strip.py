@@ -48,7 +48,7 @@ class ChipView(QWidget):
         self._mark.show_level(chip.level)
         if chip.text != self._value.text():
             self._value.setText(chip.text)
-            self._value.setToolTip(chip.text)
+            self.setToolTip(chip.text)
             self.setAccessibleName(f"{self._title}: {chip.text}")
 
 
@@ -73,14 +73,14 @@ class StatusStrip(QFrame):
         row = QHBoxLayout()
         row.setSpacing(14)
         for chip, share in (
-            (self._mode, 5),
-            (self._left, 6),
-            (self._right, 6),
-            (self._robot, 6),
-            (self._supervision, 7),
-            (self._person, 5),
-            (self._model, 8),
-            (self._recording, 8),
+            (self._mode, 12),
+            (self._left, 13),
+            (self._right, 13),
+            (self._robot, 13),
+            (self._supervision, 15),
+            (self._person, 14),
+            (self._model, 22),
+            (self._recording, 23),
         ):
             row.addWidget(chip, share)
         layout = QVBoxLayout(self)

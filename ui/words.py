@@ -22,6 +22,8 @@ _OLD_POSE_S = 1.0
 """The robot is asked many times a second; a position older than this is said to be old."""
 _LATE_SHARE = 0.5
 """From this share of the trip level on, the age of the last sample is shown instead of the rate."""
+_AT_END = 0.5
+"""A move that came this near to its end, in mm or degrees, has ended there."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -134,8 +136,27 @@ def increment_text(increment: PoseIncrement) -> tuple[str, str]:
     parts = increment.rotation_deg if is_rotation else increment.translation_mm
     axis = max(range(3), key=lambda i: abs(parts[i]))
     sign = 1 if parts[axis] >= 0 else -1
-    unit = "°" if is_rotation else " mm"
-    return direction_text(Direction(axis, sign, is_rotation)), f"{amount(increment):.1f}{unit}"
+    distance = f"{amount(increment):.1f}{_unit(increment)}"
+    return direction_text(Direction(axis, sign, is_rotation)), distance
+
+
+def outcome_text(increment: PoseIncrement, done: float, limited_by: str) -> tuple[str, str]:
+    """What became of a move that is over, as caption and text.
+
+    Args:
+        increment: The move.
+        done: How much of it was made, 0 to 1.
+        limited_by: What would have ended it, in words, or empty.
+    """
+    whole, unit = amount(increment), _unit(increment)
+    way = f"{whole:.0f}{unit}"
+    if whole * (1.0 - done) <= _AT_END:
+        end = f": {limited_by}" if limited_by else ""
+        return "Ended at", f"{whole:.1f}{unit}{end}"
+    would = f"; would have ended at: {limited_by}" if limited_by else ""
+    if whole * done < _AT_END:
+        return "Not made", f"0{unit} of {way}{would}"
+    return "Stopped", f"after {whole * done:.0f}{unit} of {way}{would}"
 
 
 def amount(increment: PoseIncrement) -> float:
@@ -216,6 +237,10 @@ def _age(age_s: float) -> str:
     if age_s == float("inf"):
         return "from the start"
     return f"{age_s * 1000:.0f} ms" if age_s < 1 else f"{min(age_s, 9999):.1f} s"
+
+
+def _unit(increment: PoseIncrement) -> str:
+    return "°" if increment.is_rotation else " mm"
 
 
 def _turn(angle_deg: float) -> float:

@@ -145,8 +145,8 @@ class Cell:
         self._control.put(ServoAsked(is_on=False))
 
     def tell(self, text: str) -> None:
-        """One line for the cell's story that a person should see."""
-        self._control.put(e.Say(text, is_alarm=True))
+        """One line for the cell's story, no alarm."""
+        self._control.put(e.Say(text))
 
     def shutdown(self) -> None:
         """End everything; what may still move is stopped by the guardian first. Idempotent."""

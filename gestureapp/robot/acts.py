@@ -71,10 +71,12 @@ class Unseen:
     Attributes:
         stop: The act.
         outcome: What became of it, for a person.
+        stood_after_s: How long after the stop the robot was read back to stand; None: it was not.
     """
 
     stop: Act
     outcome: str
+    stood_after_s: float | None = None
 
     @property
     def key(self) -> str:
@@ -146,7 +148,8 @@ def _unseen_in(acts: list[Act]) -> Unseen | None:
         else:  # the guardian was killed as well: only a stop it did not finish is news
             is_unseen = stands is None and acts[-1].did is not Did.ENDED
         if is_unseen:
-            return Unseen(act, _outcome(stands, {later.did for later in acts[i:]}))
+            outcome = _outcome(stands, {later.did for later in acts[i:]})
+            return Unseen(act, outcome, None if stands is None else stands.seen_s)
     return None
 
 

@@ -5,6 +5,7 @@ import signal
 import subprocess
 import sys
 import time
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -13,6 +14,7 @@ from gestureapp.cell.last_time import find_last_time
 from gestureapp.cell.snapshot import CellState
 from gestureapp.children import child_environment
 from gestureapp.robot.acts import Act, Did
+from gestureapp.robot.values import StopReason
 from gestureapp.running import running_cell
 from tests.cell.bench import Bench
 from tests.cell.conftest import wait_until
@@ -48,16 +50,49 @@ def write(path: Path, *lines: str | Act) -> None:
     path.write_text("".join(f"{text}\n" for text in texts), encoding="utf-8")
 
 
-def test_it_is_one_line_with_cause_time_outcome_and_the_log(tmp_path: Path):
+def test_it_tells_an_operator_what_happened_and_whoever_looks_further_the_cause(tmp_path: Path):
     log = tmp_path / "guardian.log"
     write(log, "rubbish", STOP, STANDS, GONE, '{"cut off')
     told = find_last_time(log)
     assert told is not None
     when = time.strftime("%H:%M:%S on %d %B %Y", time.localtime(1.8e9))
     assert told.text == (
-        f"Last time the guardian stopped the robot: left sensor silent, at {when}; "
-        f"standstill confirmed after 0.12 s ({log})"
+        f"At {when} the left sensor fell silent while the robot could move. "
+        "The robot was stopped and stood after 0.12 s. Look at the robot before you arm."
     )
+    assert told.event == f"last run: the robot was stopped at {when[:8]}"
+    cause, path = told.details.splitlines()
+    assert cause == f"left sensor silent, at {when}; standstill confirmed after 0.12 s"
+    assert path == str(log.absolute())
+
+
+@pytest.mark.parametrize("after", [(GONE,), (GONE, Act(Did.ENDED, "7", 1.8e9, 120.0))])
+def test_a_stop_that_was_not_confirmed_is_said_to_be_so_first(tmp_path: Path, after):
+    log = tmp_path / "guardian.log"
+    write(log, STOP, *after)
+    told = find_last_time(log)
+    assert told is not None
+    assert told.text.startswith("IT IS NOT CONFIRMED THAT THE ROBOT STOPPED. At ")
+    assert told.text.endswith("Look at the robot before you arm.")
+    assert told.event.endswith(", not confirmed")
+
+
+@pytest.mark.parametrize("reason", [reason.value for reason in StopReason if reason.is_latched])
+def test_no_internal_word_reaches_the_operator(tmp_path: Path, reason: str):
+    log = tmp_path / "guardian.log"
+    write(log, replace(STOP, reason=reason, text="its window connection ended"), STANDS, GONE)
+    told = find_last_time(log)
+    assert told is not None
+    for word in ("guardian", "application", "connection ended"):
+        assert word not in told.text
+
+
+def test_a_reason_of_another_version_is_told_in_its_own_words(tmp_path: Path):
+    log = tmp_path / "guardian.log"
+    write(log, replace(STOP, reason="not known here", text="the moon"), STANDS, GONE)
+    told = find_last_time(log)
+    assert told is not None
+    assert "this happened: the moon, while the robot could move" in told.text
 
 
 def test_what_was_shown_is_not_told_again_and_a_new_stop_is(tmp_path: Path):
@@ -143,10 +178,11 @@ def test_an_application_killed_while_moving_is_told_of_at_the_next_start(tmp_pat
         with running_cell(bench.settings, folder) as running:
             told = running.last_time
             assert told is not None
-            assert "the guardian stopped the robot: application gone: its " in told.text
-            assert "standstill confirmed after 0." in told.text
-            events = lambda: [line.text for line in running.cell.snapshot().events]  # noqa: E731
-            assert wait_until(lambda: told.text in events(), LIMIT_S)
+            assert " the program ended while the robot could move. " in told.text
+            assert "The robot was stopped and stood after 0." in told.text
+            lines = lambda: running.cell.snapshot().events  # noqa: E731
+            assert wait_until(lambda: told.event in [line.text for line in lines()], LIMIT_S)
+            assert not any(line.is_alarm for line in lines() if line.text == told.event)
             assert running.cell.snapshot().state is CellState.NOT_READY
             told.note_shown()
         with running_cell(bench.settings, folder) as running:

@@ -5,6 +5,9 @@ from math import sin
 
 import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from PySide6.QtCore import QRectF, QSizeF
 
 from gestureapp.config import KeepOutSettings, RobotSettings
 from gestureapp.robot.values import Direction, Pose, PoseIncrement
@@ -12,6 +15,7 @@ from gestureapp.sensing.store import SampleStore
 from gestureapp.sensing.values import Sample
 from ui.arm_plot import RANGE_G, SPAN_S, ArmPlot
 from ui.direction_view import DirectionView
+from ui.field_names import beside, best_place, short_name, within
 from ui.output_bars import OutputBars
 from ui.robot_view import FieldView
 from ui.theme import colours_of
@@ -163,6 +167,75 @@ def test_what_the_tool_stays_out_of_is_hatched(qtbot, scenes, x_mm, up_mm, from_
         field.resize(960, 540)
         field.show_robot(replace(scenes.ready().robot, pose=None))
         assert hatched(field, x_mm, up_mm, from_above=from_above) is is_there
+
+
+KEEP_OUTS = (
+    KeepOutSettings("welding table with long name X", (600, -300, -300), (1100, 300, 250)),
+    KeepOutSettings("post", (-600, 400, -300), (-500, 500, 900)),
+    KeepOutSettings("fixture", (700, -400, 0), (900, -200, 400)),
+)
+
+
+@pytest.fixture(params=[(400, 190), (480, 270), (960, 540)], ids=str)
+def named(request, qtbot, scenes) -> tuple[FieldView, FieldView]:
+    """The same field with names on its boxes and without, the tool on one of them."""
+    fields = []
+    for boxes in (KEEP_OUTS, tuple(replace(box, name="") for box in KEEP_OUTS)):
+        field = FieldView(RobotSettings(keep_outs=boxes))
+        qtbot.addWidget(field)
+        field.resize(*request.param)
+        field.show_robot(replace(scenes.ready().robot, pose=Pose(700, -250, 200, 180, 0, 0)))
+        fields.append(field)
+    return fields[0], fields[1]
+
+
+def test_a_box_is_in_sight_beside_its_name(named):
+    """Of each box in each view the outline is as it would be without names, or nearly so."""
+    with_names, without = (field.grab().toImage() for field in named)
+    width, height = named[0].width(), named[0].height()
+    half, middle_y = width / 2, (13 + 6 + 5 + height - 4) / 2
+    scale = (min(half - 8, height - 28) / 2 - 10) / RobotSettings().ext_radius_mm
+    for box in KEEP_OUTS:
+        for i, up in enumerate((2, 1)):
+            left, right = (half * (i + 0.5) + at[0] * scale for at in (box.low_mm, box.high_mm))
+            top, bottom = (middle_y - at[up] * scale for at in (box.high_mm, box.low_mm))
+            across, down = range(round(left), round(right) + 1), range(round(top), round(bottom))
+            edge = [(x, round(y)) for x in across for y in (top, bottom)]
+            edge += [(round(x), y) for y in down for x in (left, right)]
+            alike = sum(
+                abs(with_names.pixelColor(*at).lightness() - without.pixelColor(*at).lightness())
+                < 60
+                for at in edge
+            )
+            assert alike >= 0.9 * len(edge), (box.name, i)
+
+
+def test_a_long_name_is_cut_in_the_drawing_and_whole_in_the_tooltip(named):
+    assert short_name(KEEP_OUTS[0].name) == "welding tab…"
+    assert short_name("twelve lette") == "twelve lette"
+    assert named[0].toolTip() == KEEP_OUTS[0].name
+    assert named[1].toolTip() == ""
+
+
+areas = st.builds(
+    QRectF, st.floats(-50, 450), st.floats(-50, 250), st.floats(1, 200), st.floats(1, 200)
+).filter(lambda area: area.intersects(QRectF(0, 0, 400, 200)))
+
+
+@given(areas, st.lists(areas, max_size=8))
+def test_a_name_is_in_the_view_wherever_its_box_is(box, others):
+    view, size = QRectF(0, 0, 400, 200), QSizeF(80, 14)
+    for places in (beside(size, box, view), within(size, box, view, 6)):
+        assert view.contains(best_place(places, others, [box]))
+
+
+def test_a_name_keeps_off_its_box_another_name_and_the_tool():
+    view, size, box = QRectF(0, 0, 400, 200), QSizeF(80, 14), QRectF(150, 80, 60, 60)
+    taken: list[QRectF] = []
+    for _ in range(4):
+        place = best_place(beside(size, box, view), taken, [box])
+        assert not any(place.intersects(other) for other in [*taken, box])
+        taken.append(place)
 
 
 def test_both_views_have_the_same_scale(field, scenes):

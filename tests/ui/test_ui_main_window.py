@@ -235,7 +235,8 @@ def test_everything_fits_without_clipping_or_overlap(qtbot, window, cell, scenes
     window.resize(*size)
     qtbot.waitUntil(lambda: (window.width(), window.height()) == size)
     stopped = replace(scenes.blocked(), state=CellState.STOPPED, is_stop_unconfirmed=True)
-    for snapshot in (scenes.ready(), scenes.blocked(), scenes.moving(), stopped):
+    after = replace(scenes.moving(), state=CellState.STOPPED, blockers=scenes.blocked(9).blockers)
+    for snapshot in (scenes.ready(), scenes.blocked(), scenes.moving(), stopped, after):
         show(window, cell, snapshot)
         QApplication.processEvents()
         assert_fits(window)

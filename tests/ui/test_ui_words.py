@@ -14,6 +14,7 @@ from ui.marks import Level
 from ui.words import (
     end_of,
     increment_text,
+    outcome_text,
     pose_age_text,
     progress,
     robot_chip,
@@ -98,6 +99,34 @@ def test_an_old_position_is_said_to_be_old(scenes):
 )
 def test_a_move_is_told_by_direction_and_distance(increment, direction, distance):
     assert increment_text(increment) == (direction, distance)
+
+
+@pytest.mark.parametrize(
+    ("increment", "done", "caption", "text"),
+    [
+        (
+            PoseIncrement(dx_mm=516.1),
+            97 / 516.1,
+            "Stopped",
+            "after 97 mm of 516 mm; would have ended at: inner sphere",
+        ),
+        (
+            PoseIncrement(drz_deg=-58.0),
+            0.5,
+            "Stopped",
+            "after 29° of 58°; would have ended at: inner sphere",
+        ),
+        (PoseIncrement(dx_mm=516.1), 0.9995, "Ended at", "516.1 mm: inner sphere"),
+        (
+            PoseIncrement(dx_mm=516.1),
+            0.0,
+            "Not made",
+            "0 mm of 516 mm; would have ended at: inner sphere",
+        ),
+    ],
+)
+def test_a_move_that_is_over_is_told_in_the_past(increment, done, caption, text):
+    assert outcome_text(increment, done, "inner sphere") == (caption, text)
 
 
 @given(poses, distances, st.floats(0, 1))
