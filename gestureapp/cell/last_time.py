@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
-from gestureapp.robot.acts import Unseen, find_unseen
+from gestureapp.robot.acts import Did, Unseen, find_unseen
 from gestureapp.robot.values import StopReason
 
 log = logging.getLogger(__name__)
@@ -75,9 +75,13 @@ def _words(unseen: Unseen, guardian_log: Path) -> tuple[str, str, str]:
     then = time.localtime(unseen.stop.wall_s)
     when, day = time.strftime("%H:%M:%S", then), time.strftime("%d %B %Y", then)
     why = " ".join(unseen.stop.text.split())
+    details = f"{why}, at {when} on {day}; {unseen.outcome}\n{guardian_log}"
+    if unseen.stop.did is Did.MOVES:
+        told = f"At {when} on {day} a move began, and the program ended before the move did."
+        event = f"last run: the program ended during a move begun at {when}"
+        return f"NOTHING HERE STOPPED THE ROBOT. {told} {_LOOK}", event, details
     cause = _CAUSES.get(unseen.stop.reason, f"this happened: {why},")
     told = f"At {when} on {day} {cause} while the robot could move."
-    details = f"{why}, at {when} on {day}; {unseen.outcome}\n{guardian_log}"
     if unseen.stood_after_s is None:
         event = f"last run: the robot was to be stopped at {when}, not confirmed"
         return f"IT IS NOT CONFIRMED THAT THE ROBOT STOPPED. {told} {_LOOK}", event, details

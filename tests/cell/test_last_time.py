@@ -95,6 +95,16 @@ def test_a_reason_of_another_version_is_told_in_its_own_words(tmp_path: Path):
     assert "this happened: the moon, while the robot could move" in told.text
 
 
+def test_a_move_that_nobody_was_left_to_stop_is_told_as_such(tmp_path: Path):
+    log = tmp_path / "guardian.log"
+    write(log, Act(Did.MOVES, "7", 1.8e9, 100.0, "increment 3, limited by outer sphere"))
+    told = find_last_time(log)
+    assert told is not None
+    assert told.text.startswith("NOTHING HERE STOPPED THE ROBOT. At ")
+    assert "increment" not in told.text
+    assert "stopped" not in told.event
+
+
 def test_what_was_shown_is_not_told_again_and_a_new_stop_is(tmp_path: Path):
     log = tmp_path / "guardian.log"
     write(log, STOP, STANDS, GONE)
