@@ -251,11 +251,7 @@ class _View:
         view = self._frame.adjusted(2, 2, -2, -2)
         bodies = [body for body in self._bodies() if body.area.intersects(view)]
         boxes = [body.area for body in bodies if not body.is_bound]
-        kept_free = list(self._corners())
-        if robot.pose is not None:
-            around = QPointF(_TOOL_PX + 2, _TOOL_PX + 2)
-            here = self._at(robot.pose.position_mm)
-            kept_free.append(QRectF(here - around, here + around))
+        kept_free = [*self._corners(), *self._marks(robot)]
         for body in bodies:
             if not body.name:
                 continue
@@ -268,6 +264,18 @@ class _View:
             patch = best_place(places, kept_free, boxes)
             kept_free.append(patch)
             yield name, patch
+
+    def _marks(self, robot: RobotView) -> Iterator[QRectF]:
+        """Where the tool's cross and both ends of the move are drawn."""
+        if robot.pose is not None:
+            yield self._around(robot.pose, _TOOL_PX + 2)
+        if robot.start is not None and robot.increment is not None:
+            yield self._around(robot.start, 6)
+            yield self._around(end_of(robot.start, robot.increment), 6)
+
+    def _around(self, pose: Pose, reach_px: float) -> QRectF:
+        reach, here = QPointF(reach_px, reach_px), self._at(pose.position_mm)
+        return QRectF(here - reach, here + reach)
 
     def _corners(self) -> tuple[QRectF, QRectF]:
         """Where the axes are named, across and up: free of the field, whatever the tool does."""

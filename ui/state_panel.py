@@ -68,6 +68,7 @@ class StatePanel(QFrame):
         layout.addWidget(self._word, 10)
         layout.addWidget(self._sentence, 7)
         layout.addLayout(buttons, 4)
+        layout.setAlignment(buttons, Qt.AlignmentFlag.AlignTop)  # however long the sentence is
 
     def show_snapshot(self, snapshot: Snapshot) -> None:
         """Show another moment."""

@@ -73,14 +73,14 @@ class StatusStrip(QFrame):
         row = QHBoxLayout()
         row.setSpacing(14)
         for chip, share in (
-            (self._mode, 12),
+            (self._mode, 13),
             (self._left, 13),
             (self._right, 13),
             (self._robot, 13),
             (self._supervision, 15),
             (self._person, 14),
             (self._model, 22),
-            (self._recording, 23),
+            (self._recording, 22),
         ):
             row.addWidget(chip, share)
         layout = QVBoxLayout(self)

@@ -70,6 +70,13 @@ def test_no_button_moves_whatever_bar_comes_or_goes(sized_window, cell, tmp_path
     assert buttons_of(window) == before
 
 
+def test_no_button_moves_however_long_the_sentence_is(sized_window, cell):
+    before = buttons_of(sized_window)
+    cell.shown = replace(cell.shown, sentence="The left sensor is silent. " * 9)
+    sized_window.poll()
+    assert buttons_of(sized_window) == before
+
+
 def test_the_alarm_has_the_whole_width_and_one_line(sized_window, cell):
     make_unconfirmed(sized_window, cell)
     QApplication.processEvents()
