@@ -76,10 +76,10 @@ class StatusStrip(QFrame):
             (self._mode, 13),
             (self._left, 13),
             (self._right, 13),
-            (self._robot, 13),
+            (self._robot, 14),
             (self._supervision, 15),
-            (self._person, 14),
-            (self._model, 22),
+            (self._person, 15),
+            (self._model, 20),
             (self._recording, 22),
         ):
             row.addWidget(chip, share)
