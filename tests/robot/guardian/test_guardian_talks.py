@@ -133,7 +133,7 @@ def test_what_it_did_stands_in_its_log(start, tmp_path):
     text = log.read_text()
     acts = [act for line in text.splitlines() if (act := read_act(line)) is not None]
     assert [act.did for act in acts] == [
-        *(Did.STARTED, Did.GONE, Did.STOPPING, Did.STANDS, Did.ENDED)
+        *(Did.STARTED, Did.MOVES, Did.GONE, Did.STOPPING, Did.STANDS, Did.ENDED)
     ]
     unseen = find_unseen(text.splitlines())
     assert unseen is not None
