@@ -61,7 +61,7 @@ def test_what_is_wrong_and_does_not_bear_on_motion_is_told_in_the_window(tmp_pat
     def open_window(running: RunningCell, _: float | None) -> int:
         def is_told() -> bool:
             events = running.cell.snapshot().events
-            return [(event.text, event.is_alarm) for event in events].count((told, True)) == 1
+            return [(event.text, event.is_alarm) for event in events].count((told, False)) == 1
 
         return 0 if wait_until(is_told) else 5
 
