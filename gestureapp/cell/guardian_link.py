@@ -11,6 +11,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 from gestureapp.cell.guardian_process import close_pipes
+from gestureapp.cell.lifeline import hold_lifeline
 from gestureapp.clock import Clock
 from gestureapp.errors import GuardianLost
 from gestureapp.robot import messages as m
@@ -28,7 +29,7 @@ SEND_LIMIT_S = 0.05
 
 
 class GuardianLink:
-    """One guardian process and both connections to it. Made and closed by the cell.
+    """One guardian process and the connections to it. Made and closed by the cell.
 
     ``send`` belongs to the control thread, ``stop_now`` to the window's: each has a connection of
     its own, so neither ever waits for the other.
@@ -73,6 +74,9 @@ class GuardianLink:
             address = ("127.0.0.1", self._read_port())
             self._control = self._connect(address, token, m.Role.CONTROL)
             self._window = self._connect(address, token, m.Role.WINDOW)
+            lifeline = socket.create_connection(address, timeout=START_LIMIT_S)
+            lifeline.setblocking(True)
+            hold_lifeline(lifeline, m.encode(m.Hello(token, m.Role.LIFELINE)))
         except (OSError, GuardianLost) as error:
             self._process.kill()
             self._end_process()

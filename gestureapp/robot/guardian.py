@@ -1,8 +1,8 @@
 """The guardian process: it alone owns the robot's socket. One thread, one selector loop.
 
 The thinking is in ``supervisor``; here are only sockets and the clock. The application starts it,
-hands it one ``Start`` line on standard input, and connects twice: once from the control thread,
-once from the window. When either connection ends without a ``Bye``, the application counts as gone
+hands it one ``Start`` line on standard input, and connects: from the control thread, from the
+window, and for its end alone. When any of these ends without a ``Bye``, the application is gone
 and the robot is stopped. Before it opens the robot's address it takes the lock for it, and keeps it
 until its end: one application for each robot.
 """

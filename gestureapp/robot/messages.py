@@ -58,6 +58,8 @@ class Role(Enum):
 
     CONTROL = "control"
     WINDOW = "window"
+    LIFELINE = "lifeline"
+    """Says nothing; its end tells that the application is gone."""
 
 
 @dataclass(frozen=True, slots=True)
