@@ -155,9 +155,10 @@ class Control:
 
     def tick(self, now_s: float) -> None:
         """Look at the clocks; say that we are alive; give the window a new picture."""
-        stalled_s, self._ticked_s = now_s - self._ticked_s, now_s
         self._now_s = now_s
-        self._check_own_time(stalled_s)
+        if stall := self._own_stall():
+            self._step(e.Stalled(now_s, stall))
+        self._ticked_s = now_s
         self._check_guardian()
         self._keep_guardian()
         self._check_streams()
@@ -167,13 +168,13 @@ class Control:
         self._beat()
         self.picture = self._take_picture()
 
-    def _check_own_time(self, stalled_s: float) -> None:
+    def _own_stall(self) -> str:
         """A process that was kept from running has heard no sensor: that is not the sensor's."""
-        limit_s = self._settings.site.trip_level_s
-        if stalled_s > limit_s:
-            words = StopReason.APPLICATION_STALLED.value
-            limit = f"limit {limit_s * 1000:.0f} ms"
-            self._step(e.Stalled(self._now_s, f"{words} for {stalled_s * 1000:.0f} ms, {limit}"))
+        stalled_s, limit_s = self._now_s - self._ticked_s, self._settings.site.trip_level_s
+        if stalled_s <= limit_s:
+            return ""
+        words = StopReason.APPLICATION_STALLED.value
+        return f"{words} for {stalled_s * 1000:.0f} ms, limit {limit_s * 1000:.0f} ms"
 
     # Sensors.
 
@@ -265,6 +266,8 @@ class Control:
     def _with_cause(self, event: e.Event) -> e.Event:
         """The guardian knows only that the left sensor is silent; we know why."""
         if isinstance(event, e.StopTaken) and event.reason is StopReason.LEFT_SILENT:
+            if stall := self._own_stall():
+                return replace(event, reason=StopReason.APPLICATION_STALLED, text=stall)
             left = self._trackers[Side.LEFT].health(self._now_s)
             if not left.is_ok:
                 return replace(event, text=f"left sensor: {left.reason}")

@@ -6,7 +6,7 @@ import pytest
 
 from gestureapp.cell import events as e
 from gestureapp.cell.control import POSTURE_FORGOTTEN_S, SILENT_TICKS, TICK_S
-from gestureapp.cell.inputs import SensorTold, ServoAsked
+from gestureapp.cell.inputs import GuardianSaid, SensorTold, ServoAsked
 from gestureapp.cell.records import Topic
 from gestureapp.cell.snapshot import CellState
 from gestureapp.config import DriveMode
@@ -139,6 +139,16 @@ def test_a_process_kept_from_running_while_the_robot_moves_is_told_as_such(desk)
     desk.now_s += 0.3
     assert desk.run(0.05, S.STOPPING)
     assert "application stood still for 31" in desk.control.state.note
+    assert "sensor" not in desk.control.state.note
+
+
+def test_a_guardian_that_saw_only_the_sensor_silent_is_told_that_we_stood_still(desk):
+    desk.moving()
+    desk.now_s += 0.3
+    reason = StopReason.LEFT_SILENT
+    asked = m.StopAsked(reason, "left sensor silent for 101 ms", desk.now_s)
+    desk.control.handle(GuardianSaid(asked), desk.now_s)
+    assert "application stood still for 30" in desk.control.state.note
     assert "sensor" not in desk.control.state.note
 
 
