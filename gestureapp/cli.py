@@ -238,8 +238,9 @@ def _simulate_takes(options: argparse.Namespace) -> int:
 
 def _train(options: argparse.Namespace) -> int:
     from gestureapp.recognition.model_file import save_model
+    from gestureapp.recognition.presets import Preset
     from gestureapp.recognition.takes import load_takes
-    from gestureapp.recognition.training import Preset, train
+    from gestureapp.recognition.training import train
 
     takes = load_takes(options.takes)
     _check_place(options.out)

@@ -9,7 +9,6 @@ from collections import Counter
 from collections.abc import Callable
 from dataclasses import dataclass
 from datetime import UTC, datetime
-from enum import Enum
 from typing import Any
 
 import numpy as np
@@ -26,6 +25,7 @@ from gestureapp.recognition.model_file import (
     TrainingRecord,
 )
 from gestureapp.recognition.network import Network
+from gestureapp.recognition.presets import Preset
 from gestureapp.recognition.takes import TakeSet
 
 F64 = NDArray[np.float64]
@@ -60,15 +60,6 @@ DEFAULT_RULE = (
 _REPORTS = 100
 _FIRST_WEIGHTS = 0.5
 """First weights are even between minus and plus this: the sigmoids start where they are steep."""
-
-
-class Preset(Enum):
-    """How to train."""
-
-    PAPER = "paper"
-    """As the paper: 9-10-12, learning rate 0.25, 100,000 cycles; ``PAPER_RULE`` says the form."""
-    DEFAULT = "default"
-    """The same network, early stopping on held-out takes, the best of several starts."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -7,8 +7,9 @@ import pytest
 from gestureapp.errors import NotEnoughTakes
 from gestureapp.recognition import training
 from gestureapp.recognition.evaluation import evaluate
+from gestureapp.recognition.presets import Preset
 from gestureapp.recognition.takes import TakeSet
-from gestureapp.recognition.training import Preset, train
+from gestureapp.recognition.training import train
 from gestureapp.simulation.takes import make_takes
 
 

@@ -1,0 +1,12 @@
+"""The recipes of training, by name. Known to the window; torch is not."""
+
+from enum import Enum
+
+
+class Preset(Enum):
+    """How to train."""
+
+    PAPER = "paper"
+    """As the paper: 9-10-12, learning rate 0.25, 100,000 cycles. ``training.PAPER_RULE`` says how."""
+    DEFAULT = "default"
+    """The same network, early stopping on held-out takes, the best of several starts."""
