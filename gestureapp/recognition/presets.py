@@ -7,6 +7,6 @@ class Preset(Enum):
     """How to train."""
 
     PAPER = "paper"
-    """As the paper: 9-10-12, learning rate 0.25, 100,000 cycles. ``training.PAPER_RULE`` says how."""
+    """As the paper: 9-10-12, learning rate 0.25, 100,000 cycles. See ``training.PAPER_RULE``."""
     DEFAULT = "default"
     """The same network, early stopping on held-out takes, the best of several starts."""
