@@ -267,7 +267,7 @@ def _train(options: argparse.Namespace) -> int:
 
 
 def _evaluate(options: argparse.Namespace) -> int:
-    from gestureapp.recognition.evaluation import evaluate
+    from gestureapp.recognition.hearing import evaluate
     from gestureapp.recognition.model_file import load_model
     from gestureapp.recognition.takes import load_takes
 

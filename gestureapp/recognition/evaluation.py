@@ -1,19 +1,10 @@
-"""How well a model does: the real recogniser, fed sample by sample with every take. Pure."""
+"""What a recogniser made of takes: counts, shares, tables. Pure."""
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-
-from gestureapp.errors import ModelMismatch
-from gestureapp.recognition.model_file import Model
-from gestureapp.recognition.paper import SILENT_AFTER_S, PaperRecogniser
-from gestureapp.recognition.takes import TakeSet
-from gestureapp.recognition.values import Recogniser, Recognition
-
-RATE_UNKNOWN_HZ = 100.0
-"""Taken for takes of unknown rate: the paper's."""
 
 Percentages = tuple[float, float, float]
 
@@ -106,70 +97,24 @@ class Evaluation:
         return count / self.n if self.n else 0.0
 
 
-def evaluate(model: Model, takes: TakeSet) -> Evaluation:
-    """Feed every take to a fresh recogniser as it would come in, and count the answers.
-
-    Takes of unknown rate are fed at 100 Hz.
-
-    Raises:
-        ModelMismatch: there are no takes, or none of a gesture that the model knows.
-    """
-    known = set(model.labels) & set(takes.labels)
-    if not known:
-        found = ", ".join(sorted(set(takes.labels))[:6]) or "no takes at all"
-        wanted = ", ".join(model.labels)
-        reason = f"holds {found}; this model knows {wanted}: rename the labels or train a model"
-        raise ModelMismatch(takes.source, reason)
-    rate_hz = takes.rate_hz or RATE_UNKNOWN_HZ
-    answers = [
-        follow(PaperRecogniser(model), takes.accel_g(i), int(takes.activation[i]), rate_hz, i)
-        for i in range(len(takes))
-    ]
-    return _count(model.labels, takes, answers, rate_hz)
-
-
-def follow(
-    recogniser: Recogniser,
-    accel_g: NDArray[np.float64],
-    activation: int,
-    rate_hz: float,
-    activation_id: int = 0,
-) -> Recognition:
-    """Feed one take sample by sample; sample k is received k / rate_hz after the take's beginning.
+def tally(
+    labels: Sequence[str],
+    answers: Iterable[tuple[str, str | None]],
+    took_ms: Sequence[float] = (),
+) -> Evaluation:
+    """Count what was done against what was heard.
 
     Args:
-        recogniser: Fresh, or at least not activated.
-        accel_g: Shape (k, 3), in g.
-        activation: Index of the first sample at or after the activation, which is at its time.
-        rate_hz: Sample rate.
-        activation_id: Comes back in the answer.
+        labels: Gestures, in the order of the table; others that were done or heard follow by name.
+        answers: For each take what was done, and what was heard or None for "not recognised".
+        took_ms: From the activation to each answer.
     """
-    for index, (x, y, z) in enumerate(accel_g.tolist()):
-        if index == activation:
-            recogniser.activate(activation_id, index / rate_hz)
-        answer = recogniser.feed(index / rate_hz, (x, y, z))
-        if answer is not None:
-            return answer
-    end_s = max(len(accel_g) / rate_hz, activation / rate_hz + 2.0 * SILENT_AFTER_S)
-    answer = recogniser.check(end_s)
-    if answer is not None:
-        return answer
-    now_s = activation / rate_hz
-    return Recognition(activation_id, None, "the take ended", (), now_s, now_s, end_s)
-
-
-def _count(
-    known: tuple[str, ...], takes: TakeSet, answers: Sequence[Recognition], rate_hz: float
-) -> Evaluation:
-    labels = known + tuple(sorted(set(takes.labels) - set(known)))
-    column = {label: k for k, label in enumerate(labels)}
-    confusion = np.zeros((len(labels), len(labels) + 1), dtype=np.int64)
-    for done, answer in zip(takes.labels, answers, strict=True):
-        heard = len(labels) if answer.label is None else column[answer.label]
-        confusion[column[done], heard] += 1
-    took_ms = [
-        1000.0 * (answer.decided_s - int(activation) / rate_hz)
-        for answer, activation in zip(answers, takes.activation, strict=True)
-    ]
-    median, p95 = np.percentile(took_ms, [50, 95]).tolist() if took_ms else (0.0, 0.0)
-    return Evaluation(labels, confusion, (median, p95))
+    pairs = list(answers)
+    found = {label for pair in pairs for label in pair if label is not None}
+    known = (*labels, *sorted(found - set(labels)))
+    column = {label: k for k, label in enumerate(known)}
+    confusion = np.zeros((len(known), len(known) + 1), dtype=np.int64)
+    for done, heard in pairs:
+        confusion[column[done], len(known) if heard is None else column[heard]] += 1
+    median, p95 = np.percentile(took_ms, [50, 95]).tolist() if len(took_ms) else (0.0, 0.0)
+    return Evaluation(known, confusion, (median, p95))

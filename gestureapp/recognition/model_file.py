@@ -3,7 +3,7 @@
 import json
 import math
 from collections.abc import Mapping
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 from typing import NoReturn
 
@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gestureapp.errors import ModelInvalid
+from gestureapp.recognition.evaluation import Evaluation
 from gestureapp.recognition.files import write_atomically
 from gestureapp.recognition.network import Network
 
@@ -25,6 +26,7 @@ INPUT_PAPER = (
 )
 LARGEST_FILE = 16_000_000
 """Bytes; a model takes some 10 kB."""
+LARGEST_COUNT = 10**9
 
 
 @dataclass(frozen=True, slots=True)
@@ -55,6 +57,50 @@ class TrainingRecord:
 
 
 @dataclass(frozen=True, slots=True)
+class CrossValidation:
+    """How well networks trained as the model's did on takes that they had not seen.
+
+    Attributes:
+        evaluation: Of all takes, each heard by a network that was trained without it.
+        folds: How the takes were divided, in words: ``by session: 3 sessions``.
+    """
+
+    evaluation: Evaluation
+    folds: str
+
+
+@dataclass(frozen=True, slots=True)
+class LiveFigure:
+    """How a model did when it was tried without the robot. Counts of gestures asked for.
+
+    Attributes:
+        n: Gestures asked for; the sum of the three others.
+        recognised: Heard as what was asked.
+        wrong: Heard as another gesture.
+        rejected: Not recognised.
+        when: Wall time, ISO 8601 with zone; for people only.
+    """
+
+    n: int
+    recognised: int
+    wrong: int
+    rejected: int
+    when: str
+
+    def __post_init__(self) -> None:
+        counts = (self.recognised, self.wrong, self.rejected)
+        if min(counts) < 0 or self.n < 1 or sum(counts) != self.n:
+            raise ValueError(f"'live': {counts} do not add up to {self.n} gestures")
+
+    @classmethod
+    def of(cls, evaluation: Evaluation, when: str) -> "LiveFigure":
+        """From the table of a live test of at least one gesture."""
+        confusion, n = evaluation.confusion, evaluation.n
+        recognised, rejected = int(confusion.trace()), int(confusion[:, -1].sum())
+        return cls(n, recognised, n - recognised - rejected, rejected, when)
+
+
+@dataclass(frozen=True, slots=True)
 class Model:
     """A trained network, for one person and one gesture set.
 
@@ -68,6 +114,8 @@ class Model:
         app_version: Version of the application that made it.
         created: Wall time, ISO 8601 with zone; for people only.
         input_words: What the inputs are.
+        cross_validation: How networks like this one did on unseen takes, or None when not known.
+        live: How it did when it was tried, or None before.
     """
 
     kind: str
@@ -79,6 +127,8 @@ class Model:
     app_version: str
     created: str
     input_words: str = INPUT_PAPER
+    cross_validation: CrossValidation | None = None
+    live: LiveFigure | None = None
 
     @property
     def shape(self) -> tuple[int, int, int]:
@@ -94,7 +144,7 @@ def save_model(path: Path, model: Model) -> None:
         RecordingError: it cannot be written there.
     """
     network = model.network
-    content = {
+    content: dict[str, object] = {
         "format": FORMAT,
         "schema": SCHEMA,
         "kind": model.kind,
@@ -113,6 +163,10 @@ def save_model(path: Path, model: Model) -> None:
             "output_bias": network.output_bias.tolist(),
         },
     }
+    if model.cross_validation is not None:
+        content["cross_validation"] = _plain(model.cross_validation)
+    if model.live is not None:
+        content["live"] = asdict(model.live)
     text = json.dumps(content, indent=1, ensure_ascii=False, allow_nan=False)
     write_atomically(path, text.encode() + b"\n")
 
@@ -138,6 +192,30 @@ def load_model(path: Path) -> Model:
         return _model(content)
     except ValueError as error:
         raise ModelInvalid(path, f"is damaged: {error}; train it again") from error
+
+
+def with_live(path: Path, live: LiveFigure) -> Model:
+    """Keep with a model file how the model did when it was tried; atomically.
+
+    Raises:
+        ModelInvalid: the file cannot be read, or is damaged.
+        DiskFull: no room is left there; the old file is untouched.
+        RecordingError: it cannot be written; the old file is untouched.
+    """
+    model = replace(load_model(path), live=live)
+    save_model(path, model)
+    return model
+
+
+def _plain(validation: CrossValidation) -> dict[str, object]:
+    evaluation = validation.evaluation
+    median, p95 = evaluation.decision_ms
+    return {
+        "folds": validation.folds,
+        "labels": list(evaluation.labels),
+        "confusion": evaluation.confusion.tolist(),
+        "decision_ms": {"median": median, "p95": p95},
+    }
 
 
 def _read_object(path: Path) -> Mapping[str, object]:
@@ -168,7 +246,9 @@ def _model(content: Mapping[str, object]) -> Model:
         output_bias=_table(weights, "output_bias", 1),
     )
     if list(network.shape) != content.get("shape"):
-        raise ValueError(f"'shape' says {content.get('shape')}, the weights {list(network.shape)}")
+        raise ValueError(
+            f"'shape' says {content.get('shape')!r}, the weights {list(network.shape)}"
+        )
     if network.shape[0] != 3 * WINDOW_SAMPLES:
         raise ValueError(f"it has {network.shape[0]} inputs, expected {3 * WINDOW_SAMPLES}")
     if network.shape[2] != len(labels):
@@ -183,6 +263,8 @@ def _model(content: Mapping[str, object]) -> Model:
         app_version=_text(content, "app_version"),
         created=_text(content, "created"),
         input_words=_text(content, "input"),
+        cross_validation=_cross_validation(content),
+        live=_live(content),
     )
 
 
@@ -198,6 +280,33 @@ def _training(record: Mapping[str, object]) -> TrainingRecord:
         duration_s=_number(record, "duration_s"),
         takes_from=_text(record, "takes_from"),
     )
+
+
+def _cross_validation(content: Mapping[str, object]) -> CrossValidation | None:
+    """Absent in files of older versions."""
+    if content.get("cross_validation") is None:
+        return None
+    found = _object(content, "cross_validation")
+    labels, times = _labels(found.get("labels")), _object(found, "decision_ms")
+    counts = _table(found, "confusion", 2)
+    if counts.shape != (len(labels), len(labels) + 1):
+        raise ValueError(f"'confusion' has shape {counts.shape} for {len(labels)} labels")
+    if np.any(counts < 0) or np.any(counts != np.floor(counts)) or np.any(counts > LARGEST_COUNT):
+        raise ValueError("'confusion' must hold counts")
+    took_ms = (_number(times, "median"), _number(times, "p95"))
+    evaluation = Evaluation(labels, counts.astype(np.int64), took_ms)
+    return CrossValidation(evaluation, _text(found, "folds"))
+
+
+def _live(content: Mapping[str, object]) -> LiveFigure | None:
+    """Absent in files of older versions, and before the model was tried."""
+    if content.get("live") is None:
+        return None
+    found = _object(content, "live")
+    n, recognised, wrong, rejected = (
+        _count(found, name) for name in ("n", "recognised", "wrong", "rejected")
+    )
+    return LiveFigure(n, recognised, wrong, rejected, _text(found, "when"))
 
 
 def _labels(value: object) -> tuple[str, ...]:
@@ -237,14 +346,21 @@ def _number(content: Mapping[str, object], name: str) -> float:
     return number
 
 
+def _count(content: Mapping[str, object], name: str) -> int:
+    number = _number(content, name)
+    if number != int(number) or not 0 <= number <= LARGEST_COUNT:
+        raise ValueError(f"'{name}' must be a count")
+    return int(number)
+
+
 def _table(weights: Mapping[str, object], name: str, ndim: int) -> NDArray[np.float64]:
     try:
         table = np.array(weights.get(name))
         if table.ndim != ndim or table.dtype.kind not in "fi":
-            raise ValueError(f"the weights '{name}' must be numbers in {ndim} dimensions")
+            raise ValueError(f"'{name}' must be numbers in {ndim} dimensions")
         return table.astype(np.float64)
     except (TypeError, OverflowError) as error:
-        raise ValueError(f"the weights '{name}' cannot be used") from error
+        raise ValueError(f"'{name}' cannot be used") from error
 
 
 def _refuse_constant(name: str) -> NoReturn:

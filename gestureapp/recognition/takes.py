@@ -36,7 +36,8 @@ class TakeSet:
         offsets: Take i is ``samples[offsets[i]:offsets[i + 1]]``; shape (m + 1,).
         labels: What was done in each take.
         activation: Index inside each take of the first sample at or after the activation; shape
-        (m,). user: Who did it, for each take; empty when unknown.
+            (m,).
+        user: Who did it, for each take; empty when unknown.
         session: In which session, for each take; empty when unknown.
         rate_hz: Sample rate; None when unknown.
         source: The file it is from, for messages.
@@ -81,9 +82,12 @@ class TakeSet:
         )
 
     def fingerprint(self) -> str:
-        """A digest that changes with any sample, label, activation or the rate; ``sha256:…``."""
+        """A digest that changes with any sample, label, activation or the rate; ``sha256:…``.
+
+        Of the samples as the exchange file holds them: the same before saving and after loading.
+        """
         digest = hashlib.sha256()
-        for array in (self.samples, self.offsets, self.activation):
+        for array in (self.samples.astype(np.float32), self.offsets, self.activation):
             digest.update(np.ascontiguousarray(array).tobytes())
         digest.update("\0".join(self.labels).encode())
         digest.update(repr(self.rate_hz).encode())

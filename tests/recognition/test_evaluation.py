@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from gestureapp.errors import ModelMismatch
-from gestureapp.recognition.evaluation import evaluate
+from gestureapp.recognition.hearing import evaluate
 from gestureapp.recognition.model_file import Model, TrainingRecord
 from gestureapp.recognition.network import Network
 from gestureapp.recognition.takes import TakeSet

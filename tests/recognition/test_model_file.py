@@ -7,9 +7,19 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from gestureapp.errors import ModelInvalid
-from gestureapp.recognition.model_file import Model, TrainingRecord, load_model, save_model
+from gestureapp.recognition.evaluation import tally
+from gestureapp.recognition.model_file import (
+    CrossValidation,
+    LiveFigure,
+    Model,
+    TrainingRecord,
+    load_model,
+    save_model,
+    with_live,
+)
 from gestureapp.recognition.network import Network
 
+LIVE = LiveFigure(n=60, recognised=56, wrong=1, rejected=3, when="2026-01-02T00:00:00+00:00")
 RECORD = TrainingRecord("paper", "by hand", 100_000, 0.25, 3, 360, 0.001, 7.5, "somewhere")
 
 
@@ -27,6 +37,10 @@ def model_of():
         takes_fingerprint="sha256:00",
         app_version="0.1.0",
         created="2026-01-01T00:00:00+00:00",
+        cross_validation=CrossValidation(
+            tally(("X+", "grüßen"), [("X+", "X+"), ("grüßen", None)], [20.0, 30.0]), "by hand"
+        ),
+        live=LIVE,
     )
 
 
@@ -50,7 +64,35 @@ def test_a_model_written_and_read_is_the_same_to_the_last_bit(path):
 
     for name in ("hidden", "hidden_bias", "output", "output_bias"):
         assert np.array_equal(getattr(back.network, name), getattr(made.network, name))
-    assert replace(back, network=made.network) == made
+    again = replace(back, network=made.network, cross_validation=made.cross_validation)
+    assert again == made
+    heard, meant = back.cross_validation, made.cross_validation
+    assert heard.folds == meant.folds
+    assert heard.evaluation.as_json() == meant.evaluation.as_json()
+
+
+def test_a_file_without_figures_as_older_versions_wrote_it_is_read(path):
+    content = json.loads(path.read_text(encoding="utf-8"))
+    del content["live"], content["cross_validation"]
+    path.write_text(json.dumps(content), encoding="utf-8")
+
+    back = load_model(path)
+
+    assert (back.live, back.cross_validation) == (None, None)
+    assert back.labels == model_of().labels
+
+
+def test_the_live_figure_is_kept_with_the_model_and_replaces_the_one_before(path):
+    evaluation = tally(("X+", "grüßen"), [("X+", "X+"), ("X+", "grüßen"), ("grüßen", None)])
+    live = LiveFigure.of(evaluation, "2026-01-03T00:00:00+00:00")
+
+    with_live(path, live)
+
+    back = load_model(path)
+    assert back.live == live
+    assert (live.n, live.recognised, live.wrong, live.rejected) == (3, 1, 1, 1)
+    assert np.array_equal(back.network.hidden, model_of().network.hidden)
+    assert back.cross_validation.evaluation.n == 2
 
 
 def test_a_person_can_read_the_file(path):
@@ -85,6 +127,14 @@ def test_a_person_can_read_the_file(path):
         (["training", "loss"], None, "'loss' must be a number"),
         (["training", "cycles"], 10**400, "'cycles' is too large"),
         (["person"], 5, "'person' must be a text"),
+        (["live"], [], "'live' is missing"),
+        (["live", "recognised"], 57, r"\(57, 1, 3\) do not add up to 60"),
+        (["live", "wrong"], 0.5, "'wrong' must be a count"),
+        (["live", "when"], None, "'when' must be a text"),
+        (["cross_validation", "folds"], 3, "'folds' must be a text"),
+        (["cross_validation", "confusion"], [[1, 2]], r"'confusion' has shape \(1, 2\)"),
+        (["cross_validation", "confusion"], [[1, 2, 3], [4, -5, 6]], "must hold counts"),
+        (["cross_validation", "confusion"], [[1, 2, 3], [4, 0.5, 6]], "must hold counts"),
     ],
 )
 def test_damage_is_named_in_one_line(path, keys, to, words):
@@ -156,3 +206,49 @@ def test_a_file_cut_off_anywhere_is_refused(whole_file, tmp_path_factory, share)
 
     with pytest.raises(ModelInvalid):
         load_model(path)
+
+
+VALUES = st.recursive(
+    st.none() | st.booleans() | st.integers() | st.floats() | st.text(max_size=5),
+    lambda inner: st.lists(inner, max_size=4) | st.dictionaries(st.text(max_size=5), inner),
+    max_leaves=8,
+)
+
+
+@settings(max_examples=200, deadline=None)
+@given(data=st.data())
+def test_any_value_in_any_place_is_read_or_refused_in_one_line(whole_file, tmp_path_factory, data):
+    content = inner = json.loads(whole_file)
+    while True:
+        key = data.draw(st.sampled_from(sorted(inner) if isinstance(inner, dict) else [0]))
+        if not isinstance(inner[key], dict | list) or not inner[key] or data.draw(st.booleans()):
+            break
+        inner = inner[key]
+    inner[key] = data.draw(VALUES)
+    path = tmp_path_factory.getbasetemp() / "any.json"
+    path.write_text(json.dumps(content), encoding="utf-8")
+
+    read_or_refused_in_one_line(path)
+
+
+@settings(max_examples=200, deadline=None)
+@given(place=st.floats(0.0, 1.0), new=st.binary(min_size=1, max_size=3))
+def test_a_file_with_other_bytes_anywhere_is_read_or_refused_in_one_line(
+    whole_file, tmp_path_factory, place, new
+):
+    at = int(place * len(whole_file))
+    path = tmp_path_factory.getbasetemp() / "bytes.json"
+    path.write_bytes(whole_file[:at] + new + whole_file[at + len(new) :])
+
+    read_or_refused_in_one_line(path)
+
+
+def read_or_refused_in_one_line(path):
+    words = ""
+    try:
+        model = load_model(path)
+    except ModelInvalid as refused:
+        words = str(refused)
+    else:
+        assert model.shape[2] == len(model.labels)
+    assert not words or (str(path) in words and len(words.splitlines()) == 1)

@@ -54,6 +54,13 @@ def test_takes_written_and_read_are_the_same(tmp_path):
     assert back.fingerprint() == takes.fingerprint()
 
 
+def test_the_fingerprint_outlives_the_file_also_for_finer_samples(tmp_path):
+    takes = takes_of(samples=np.random.default_rng(1).normal(0, 1, (10, 3)))
+    save_takes(tmp_path / "t.npz", takes)
+
+    assert load_takes(tmp_path / "t.npz").fingerprint() == takes.fingerprint()
+
+
 def test_an_unknown_rate_stays_unknown(tmp_path):
     save_takes(tmp_path / "t.npz", takes_of(rate_hz=None))
 

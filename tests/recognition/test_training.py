@@ -6,7 +6,7 @@ import pytest
 
 from gestureapp.errors import NotEnoughTakes
 from gestureapp.recognition import training
-from gestureapp.recognition.evaluation import evaluate
+from gestureapp.recognition.hearing import evaluate
 from gestureapp.recognition.presets import Preset
 from gestureapp.recognition.takes import TakeSet
 from gestureapp.recognition.training import train
@@ -164,7 +164,7 @@ def test_the_default_preset_learns_an_ordinary_person_well_enough_to_use(monkeyp
 @pytest.mark.process
 def test_recognising_does_not_import_torch():
     code = (
-        "import sys; import gestureapp.recognition.paper, gestureapp.recognition.evaluation, "
+        "import sys; import gestureapp.recognition.paper, gestureapp.recognition.hearing, "
         "gestureapp.recognition.model_file, gestureapp.recognition.training; "
         "sys.exit('torch' in sys.modules)"
     )

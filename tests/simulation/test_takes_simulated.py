@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from gestureapp.gestures import LABELS
-from gestureapp.recognition.evaluation import evaluate
+from gestureapp.recognition.hearing import evaluate
 from gestureapp.recognition.model_file import load_model
 from gestureapp.recognition.paper import PaperRecogniser
 from gestureapp.sensing.posture import PostureDetector
