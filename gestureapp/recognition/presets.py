@@ -2,6 +2,9 @@
 
 from enum import Enum
 
+MIN_TAKES = 5
+"""Fewest takes of a gesture worth training from; one of five is held out by the default preset."""
+
 
 class Preset(Enum):
     """How to train."""

@@ -25,7 +25,7 @@ from gestureapp.recognition.model_file import (
     TrainingRecord,
 )
 from gestureapp.recognition.network import Network
-from gestureapp.recognition.presets import Preset
+from gestureapp.recognition.presets import MIN_TAKES, Preset
 from gestureapp.recognition.takes import TakeSet
 
 F64 = NDArray[np.float64]
@@ -37,8 +37,6 @@ Tensor = Any
 
 HIDDEN = 10
 """Hidden neurons. Source: paper, IV.C."""
-MIN_TAKES = 5
-"""Fewest takes of a gesture worth training from; one of five is held out by the default preset."""
 PAPER_CYCLES = 100_000
 PAPER_RATE = 0.25
 """Source of both: paper, table II."""
