@@ -36,8 +36,8 @@ CATCH_UP_S = 0.01
 BATCH = 100
 """Records a step, at 12 us each."""
 SYNC_S = 0.5
-"""A chunk's age when it goes to the disk. A disk that is slow to confirm takes some 0.2 s more; what a
-killed process loses stays below a second."""
+"""A chunk's age when it goes to the disk. A disk that is slow to confirm takes some 0.2 s more;
+what a killed process loses stays below a second."""
 STALL_S = 2.0
 """A write that takes longer than this is told to the person and put in the record."""
 RETRY_MIN_S = 1.0
