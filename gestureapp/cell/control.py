@@ -10,13 +10,17 @@ from collections.abc import Callable
 from dataclasses import replace
 
 from gestureapp.cell import events as e
+from gestureapp.cell.arms import Arms
+from gestureapp.cell.ear import Ear, ModelInUse
 from gestureapp.cell.inputs import (
     GuardianPort,
     GuardianSaid,
     Input,
+    ModelChosen,
     SampleCame,
     SensorTold,
     ServoAsked,
+    TrainingHeld,
 )
 from gestureapp.cell.machine import MachineState, Rules, step
 from gestureapp.cell.readiness import Facts, find_blockers
@@ -28,22 +32,18 @@ from gestureapp.cell.words import sentence
 from gestureapp.clock import Clock
 from gestureapp.config import Settings
 from gestureapp.errors import GuardianLost
-from gestureapp.recognition.values import Recogniser, Recognition
 from gestureapp.robot import messages as m
 from gestureapp.robot.values import StopReason
 from gestureapp.robot.workspace import FieldOfOperation
-from gestureapp.sensing.posture import PostureDetector
-from gestureapp.sensing.stream import StreamTracker
 from gestureapp.sensing.values import ArmPosture, Sample, Side
 
 TICK_S = 0.01
 """The control thread's own clock; also the longest time between two heartbeats."""
 JUDGE_S = 0.05
 """How often readiness is judged."""
-POSTURE_FORGOTTEN_S = 0.5
-"""A left arm not heard for this long is in no posture; the watchdog has acted long before."""
 RESTART_S = 0.2
 """Between two attempts to start a guardian."""
+TRAINING_OPEN = "training is open"
 SILENT_TICKS = 30
 """A guardian is heard every 0.1 s. Counted in our own ticks: we may have stood still ourselves."""
 
@@ -54,9 +54,7 @@ class Control:
     Args:
         settings: Of the cell.
         field: Where the tool may go.
-        recogniser: None when no model can be used; ``model_problem`` says why.
-        model: The model in words, for the window.
-        model_problem: Why no gesture could be recognised; empty when one can.
+        model: What gestures are recognised with at first.
         start_guardian: Starts a guardian; raises GuardianLost.
         gui_seen_s: When the window's timer last ran.
         record: Takes everything that happens.
@@ -73,9 +71,7 @@ class Control:
         self,
         settings: Settings,
         field: FieldOfOperation,
-        recogniser: Recogniser | None,
-        model: str,
-        model_problem: str,
+        model: ModelInUse,
         start_guardian: Callable[[], GuardianPort],
         gui_seen_s: Callable[[], float],
         record: Recorder,
@@ -84,25 +80,18 @@ class Control:
     ) -> None:
         site = settings.site
         self._settings, self._field = settings, field
-        self._recogniser, self._model, self._model_problem = recogniser, model, model_problem
+        self._ear, self._lock = Ear(model, record), ""
         self._start_guardian, self._gui_seen_s = start_guardian, gui_seen_s
         self._record, self._clock = record, clock
         self._rules = Rules(site.drive_mode, site.stop_on_right_lost, bool(settings.robot.host))
         self._inbox: queue.SimpleQueue[Input] = queue.SimpleQueue()
-        self._trackers = {
-            side: StreamTracker(side, site.trip_level_s, site.rate_min_hz, site.rate_max_hz)
-            for side in Side
-        }
-        self._detector = PostureDetector(
-            site.posture_enter_deg, site.posture_leave_deg, site.posture_debounce
-        )
+        self._arms = Arms(site)
         self._robot = RobotMemory(settings.robot)
         self._guardian: GuardianPort | None = None
         self._guardian_tried_s = float("-inf")
         self._guardian_trouble = ""
         self._n_silent = 0
         self._owed_stop: m.Stop | None = None
-        self._recognition: Recognition | None = None
         self._story = Story(record, wall_clock)
         self._judged_s = float("-inf")
         self._now_s = self._ticked_s = clock()
@@ -141,13 +130,17 @@ class Control:
             case SampleCame():
                 self._right_sample(item.sample)
             case SensorTold():
-                self._trackers[item.side].event(item.t_s, item.event)
+                self._arms.told(item)
             case GuardianSaid():
                 self._guardian_said(item.message)
             case ServoAsked():
                 self._send(m.ServoOn() if item.is_on else m.ServoOff())
             case e.GuardianGone():
                 self._guardian_gone(item)
+            case ModelChosen():
+                self._ear.choose(item.model)
+            case TrainingHeld():
+                self._hold_for_training(item.is_open)
             case e.Say():
                 self._say(item)
             case _:
@@ -162,8 +155,9 @@ class Control:
         self._check_guardian()
         self._keep_guardian()
         self._check_streams()
-        if self._recogniser is not None and (late := self._recogniser.check(now_s)) is not None:
-            self._recognised(late)
+        if (late := self._ear.check(now_s)) is not None:
+            self._step(late)
+        self._take_model()
         self._step(e.Ticked(now_s, self._blockers()))
         self._beat()
         self.picture = self._take_picture()
@@ -179,41 +173,41 @@ class Control:
     # Sensors.
 
     def _left_sample(self, sample: Sample) -> None:
-        self._trackers[Side.LEFT].sample(sample)
-        before = self._detector.posture
-        posture = self._detector.feed(sample.accel_g)
-        if posture is not before:
-            self._step(e.LeftPosture(sample.t_s, posture))
+        if (changed := self._arms.left(sample)) is not None:
+            self._step(changed)
         self._beat()
 
     def _right_sample(self, sample: Sample) -> None:
-        self._trackers[Side.RIGHT].sample(sample)
-        if self._recogniser is not None:
-            answer = self._recogniser.feed(sample.t_s, sample.accel_g)
-            if answer is not None:
-                self._recognised(answer)
+        self._arms.right(sample)
+        if (answer := self._ear.feed(sample, self._now_s)) is not None:
+            self._step(answer)
 
     def _check_streams(self) -> None:
-        left = self._trackers[Side.LEFT].health(self._now_s)
-        if left.age_s > POSTURE_FORGOTTEN_S and self._detector.posture is not ArmPosture.NEITHER:
-            self._detector.reset()
-            self._step(e.LeftPosture(self._now_s, ArmPosture.NEITHER))
-        if self.state.state not in (CellState.ARMED, CellState.ACTIVATED, CellState.MOVING):
-            return
-        for side, tracker in self._trackers.items():
-            health = tracker.health(self._now_s)
-            if not health.is_ok:
-                text = f"{side.value} sensor: {health.reason}"
-                self._step(e.StreamLost(self._now_s, side, text))
+        if (forgotten := self._arms.forget_posture(self._now_s)) is not None:
+            self._step(forgotten)
+        if self.state.state in (CellState.ARMED, CellState.ACTIVATED, CellState.MOVING):
+            for lost in self._arms.lost(self._now_s):
+                self._step(lost)
 
-    def _recognised(self, answer: Recognition) -> None:
-        answer = replace(answer, decided_s=self._now_s)
-        self._recognition = answer
-        outputs = {c.label: c.confidence for c in answer.outputs}
-        fields = {**fields_of(answer), "outputs": outputs}
-        self._record(Record(Topic.RECOGNITION, self._now_s, fields))
-        text = answer.reason if answer.label is None else f"recognised {answer.label}"
-        self._step(e.Decided(self._now_s, answer.activation_id, answer.label, text))
+    # Training.
+
+    def _hold_for_training(self, is_open: bool) -> None:
+        """The permission goes back at once; a robot that moves is stopped as by Disarm."""
+        self._lock = TRAINING_OPEN if is_open else ""
+        if is_open:
+            self._step(e.DisarmPressed(self._now_s))
+        self._judge_again()
+
+    def _take_model(self) -> None:
+        if not self.state.is_at_rest or self.state.is_arming:
+            return
+        if (model := self._ear.take_choice()) is not None:
+            self._say(e.Say(f"model: {model.problem or model.words}"))
+            self._judge_again()
+
+    def _judge_again(self) -> None:
+        self._judged_s = float("-inf")
+        self._step(e.Ticked(self._now_s, self._blockers()))
 
     # The guardian.
 
@@ -268,7 +262,7 @@ class Control:
         if isinstance(event, e.StopTaken) and event.reason is StopReason.LEFT_SILENT:
             if stall := self._own_stall():
                 return replace(event, reason=StopReason.APPLICATION_STALLED, text=stall)
-            left = self._trackers[Side.LEFT].health(self._now_s)
+            left = self._arms.health(Side.LEFT, self._now_s)
             if not left.is_ok:
                 return replace(event, text=f"left sensor: {left.reason}")
         return event
@@ -276,11 +270,10 @@ class Control:
     def _beat(self) -> None:
         if self._guardian is None:
             return
-        counts_s = self._trackers[Side.LEFT].last_valid_s(self._now_s)
-        posture = self._detector.posture
+        posture = self._arms.posture
         self._guardian.send(
             m.Beat(
-                left_s=float("-inf") if counts_s is None else counts_s,
+                left_s=self._arms.last_left_s(self._now_s),
                 is_left_start=posture is ArmPosture.START,
                 is_left_stop=posture is ArmPosture.STOP,
                 control_s=self._now_s,
@@ -323,10 +316,10 @@ class Control:
 
     def _carry_out(self, effect: e.Effect) -> None:
         match effect:
-            case e.BeginCollecting() if self._recogniser is not None:
-                self._recogniser.activate(effect.activation_id, effect.t_s)
-            case e.EndCollecting() if self._recogniser is not None:
-                self._recogniser.cancel()
+            case e.BeginCollecting():
+                self._ear.activate(effect.activation_id, effect.t_s)
+            case e.EndCollecting():
+                self._ear.cancel()
             case e.SendProposal():
                 direction = direction_of(effect.label)
                 self._send(m.Propose(effect.activation_id, direction, effect.t_s))
@@ -351,11 +344,13 @@ class Control:
         since_s = self.state.stop_since_s
         return find_blockers(
             Facts(
-                left=self._trackers[Side.LEFT].health(self._now_s),
-                right=self._trackers[Side.RIGHT].health(self._now_s),
+                left=self._arms.health(Side.LEFT, self._now_s),
+                right=self._arms.health(Side.RIGHT, self._now_s),
                 stop_seen_s=None if since_s is None else self._now_s - since_s,
                 stop_wanted_s=self._settings.site.stop_seen_s,
-                model_problem=self._model_problem,
+                model_problem=self._ear.model.problem,
+                model_remedy=self._ear.model.remedy,
+                lock=self._lock,
                 is_link_open=self._robot.is_open,
                 link_text=self._robot.text,
                 link_remedy=self._robot.remedy,
@@ -371,7 +366,7 @@ class Control:
 
     def _take_picture(self) -> Snapshot:
         s, settings = self.state, self._settings
-        recognition = self._recognition
+        model, recognition = self._ear.model, self._ear.recognition
         label = recognition.label if recognition is not None else None
         return Snapshot(
             t_s=self._now_s,
@@ -380,8 +375,8 @@ class Control:
             blockers=s.blockers if s.is_at_rest else (),
             can_arm=s.can_arm,
             is_stop_unconfirmed=s.is_stop_unconfirmed,
-            left=self._trackers[Side.LEFT].health(self._now_s),
-            right=self._trackers[Side.RIGHT].health(self._now_s),
+            left=self._arms.health(Side.LEFT, self._now_s),
+            right=self._arms.health(Side.RIGHT, self._now_s),
             posture=s.posture,
             trip_level_s=settings.site.trip_level_s,
             recognition=recognition,
@@ -390,8 +385,8 @@ class Control:
             events=self._story.lines,
             is_simulation=settings.is_simulation,
             recording=RecordingView(),
-            person=settings.person.name,
-            model=self._model,
+            person=model.person or settings.person.name,
+            model=model.words,
         )
 
 

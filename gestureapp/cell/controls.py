@@ -1,5 +1,6 @@
 """What a window may ask of the cell: the whole surface between the engine and the Qt shell."""
 
+from pathlib import Path
 from typing import Protocol
 
 from gestureapp.cell.events import STOP_WORDS
@@ -41,6 +42,20 @@ class CellControls(Protocol):
 
     def servo_off(self) -> None:
         """The operator asks for servo power to go off; taken only while not armed."""
+
+    def use_model(self, path: Path, problem: str = "") -> None:
+        """Recognise with another model, as soon as nothing may move.
+
+        Args:
+            path: A model file. When it cannot be used, nothing can be armed, and it is said why.
+            problem: Why it is out of date, so that nothing can be armed with it; empty when not.
+        """
+
+    def hold_for_training(self, is_open: bool) -> None:
+        """Training is open, or closed again. While it is open nothing can be armed.
+
+        What is armed is disarmed; what moves is stopped as by ``disarm``.
+        """
 
     def shutdown(self) -> None:
         """Stop and disarm the robot, close the record, end all threads and children. Idempotent."""

@@ -7,18 +7,23 @@ from pathlib import Path
 
 from gestureapp.cell import events as e
 from gestureapp.cell.control import Control
+from gestureapp.cell.ear import open_model
 from gestureapp.cell.guardian_link import GuardianLink
 from gestureapp.cell.guardian_process import SpareGuardian
-from gestureapp.cell.inputs import GuardianPort, GuardianSaid, SampleCame, SensorTold, ServoAsked
+from gestureapp.cell.inputs import (
+    GuardianPort,
+    GuardianSaid,
+    ModelChosen,
+    SampleCame,
+    SensorTold,
+    ServoAsked,
+    TrainingHeld,
+)
 from gestureapp.cell.records import Record, Recorder, Topic
 from gestureapp.cell.snapshot import CellState, RecordingView, Snapshot
 from gestureapp.clock import Clock, monotonic
 from gestureapp.config import DriveMode, JointSettings, SensorSettings, Settings
-from gestureapp.errors import ConfigError, GuardianLost, ModelError, WorkerError
-from gestureapp.gestures import LABELS
-from gestureapp.recognition.model_file import load_model
-from gestureapp.recognition.paper import PaperRecogniser
-from gestureapp.recognition.values import Recogniser
+from gestureapp.errors import ConfigError, GuardianLost, WorkerError
 from gestureapp.robot import messages as m
 from gestureapp.robot.arm import ArmLimits
 from gestureapp.robot.gate import Limits
@@ -80,13 +85,10 @@ class Cell:
         self._link: GuardianLink | None = None
         self._spare = SpareGuardian()
         self._is_closing = False
-        recogniser, model, problem = find_recogniser(settings)
         self._control = Control(
             settings=settings,
             field=self._limits.field,
-            recogniser=recogniser,
-            model=model,
-            model_problem=problem,
+            model=replace(open_model(settings.person.model), person=""),
             start_guardian=self._start_guardian,
             gui_seen_s=lambda: self._gui_s,
             record=record,
@@ -143,6 +145,14 @@ class Cell:
     def servo_off(self) -> None:
         """The operator asks for servo power to go off."""
         self._control.put(ServoAsked(is_on=False))
+
+    def use_model(self, path: Path, problem: str = "") -> None:
+        """Recognise with another model, as soon as nothing may move."""
+        self._control.put(ModelChosen(open_model(path, problem)))
+
+    def hold_for_training(self, is_open: bool) -> None:
+        """Training is open, or closed again; while it is open nothing can be armed."""
+        self._control.put(TrainingHeld(is_open))
 
     def tell(self, text: str) -> None:
         """One line for the cell's story, no alarm."""
@@ -225,22 +235,6 @@ def _orphaned(picture: Snapshot, *, is_open: bool) -> Snapshot:
         can_arm=False,
         is_stop_unconfirmed=is_open,
     )
-
-
-def find_recogniser(settings: Settings) -> tuple[Recogniser | None, str, str]:
-    """The recogniser of the person's model, the model in words, and why there is none."""
-    path = settings.person.model
-    if path is None:
-        return None, "no model", "no model is set for this person"
-    try:
-        model = load_model(path)
-        unknown = sorted(set(model.labels) - set(LABELS))
-        if unknown:
-            return None, path.name, f"{path.name} knows gestures the robot does not: {unknown}"
-        recogniser = PaperRecogniser(model)
-    except (ModelError, ValueError) as error:
-        return None, "no model", str(error)
-    return recogniser, f"{path.stem} ({model.training.preset})", ""
 
 
 def field_of(settings: Settings) -> FieldOfOperation:

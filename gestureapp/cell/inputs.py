@@ -4,6 +4,7 @@ from dataclasses import dataclass
 from typing import Protocol
 
 from gestureapp.cell import events as e
+from gestureapp.cell.ear import ModelInUse
 from gestureapp.robot import messages as m
 from gestureapp.sensing.values import Sample, SensorEvent, Side
 
@@ -46,4 +47,21 @@ class ServoAsked:
     is_on: bool
 
 
-Input = SampleCame | SensorTold | GuardianSaid | ServoAsked | e.Say | e.Event
+@dataclass(frozen=True, slots=True)
+class ModelChosen:
+    """Another model is to be used, as soon as nothing may move."""
+
+    model: ModelInUse
+
+
+@dataclass(frozen=True, slots=True)
+class TrainingHeld:
+    """The training is open, or closed again; while it is open nothing can be armed."""
+
+    is_open: bool
+
+
+Input = (
+    SampleCame | SensorTold | GuardianSaid | ServoAsked | ModelChosen | TrainingHeld
+    | e.Say | e.Event
+)  # fmt: skip

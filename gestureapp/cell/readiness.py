@@ -36,7 +36,7 @@ class Facts:
         right: Health of the right stream.
         stop_seen_s: How long the left arm has been in the stop posture; None when it is not.
         stop_wanted_s: How long it has to be.
-        model_problem: Why no gesture could be recognised; empty when one can.
+        model_problem: Why the model cannot be armed with; empty when it can.
         is_link_open: The controller has taken the session.
         link_text: The line's own words.
         status: Last RSTATS, or None.
@@ -45,6 +45,7 @@ class Facts:
         pose_age_s: How old that is.
         field: Where the tool may go.
         tool: Number of the tool that the settings have.
+        model_remedy: What to do about the model.
         lock: Why arming is locked out at all, or empty.
         hindrances: What the guardian knows to stand against it and no status shows.
         link_remedy: What to do about the line, where the guardian knows; else empty.
@@ -63,6 +64,7 @@ class Facts:
     pose_age_s: float
     field: FieldOfOperation
     tool: int
+    model_remedy: str = "train a model, or choose another file"
     lock: str = ""
     link_remedy: str = ""
     hindrances: tuple[Refusal, ...] = ()
@@ -91,9 +93,9 @@ def _sensor_blockers(facts: Facts) -> Iterator[Blocker]:
 
 def _own_blockers(facts: Facts) -> Iterator[Blocker]:
     if facts.lock:
-        yield Blocker("lock", facts.lock, "finish that first")
+        yield Blocker("lock", facts.lock, "go back to Operate")
     if facts.model_problem:
-        yield Blocker("model", facts.model_problem, "train a model, or choose another file")
+        yield Blocker("model", facts.model_problem, facts.model_remedy)
 
 
 def _robot_blockers(facts: Facts) -> Iterator[Blocker]:

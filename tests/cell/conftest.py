@@ -9,6 +9,7 @@ import pytest
 
 from gestureapp.cell import events as e
 from gestureapp.cell.control import TICK_S, Control
+from gestureapp.cell.ear import open_model
 from gestureapp.cell.engine import field_of
 from gestureapp.cell.inputs import GuardianPort, GuardianSaid, SampleCame, SensorTold
 from gestureapp.cell.records import Record, Topic
@@ -16,8 +17,6 @@ from gestureapp.cell.snapshot import CellState
 from gestureapp.clock import monotonic
 from gestureapp.config import Settings
 from gestureapp.errors import GuardianLost
-from gestureapp.recognition.model_file import load_model
-from gestureapp.recognition.paper import PaperRecogniser
 from gestureapp.robot import messages as m
 from gestureapp.robot.values import Pose, PoseIncrement, Position, Posture, StopReason
 from gestureapp.sensing.values import ArmPosture, Connected, Sample, Side
@@ -169,9 +168,7 @@ class Desk:
         self.control = Control(
             settings=self.settings,
             field=field_of(self.settings),
-            recogniser=PaperRecogniser(load_model(MODEL)),
-            model="demo",
-            model_problem="",
+            model=open_model(MODEL),
             start_guardian=self._start_guardian,
             gui_seen_s=lambda: self.now_s,
             record=self.records.append,

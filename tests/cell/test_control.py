@@ -5,7 +5,8 @@ from dataclasses import replace
 import pytest
 
 from gestureapp.cell import events as e
-from gestureapp.cell.control import POSTURE_FORGOTTEN_S, SILENT_TICKS, TICK_S
+from gestureapp.cell.arms import POSTURE_FORGOTTEN_S
+from gestureapp.cell.control import SILENT_TICKS, TICK_S
 from gestureapp.cell.inputs import GuardianSaid, SensorTold, ServoAsked
 from gestureapp.cell.records import Topic
 from gestureapp.cell.snapshot import CellState

@@ -204,7 +204,7 @@ def test_a_model_that_cannot_be_used_stands_against_arming(
     if content is not None:
         path.write_bytes(content)
     cell = cell_of(replace(Settings(), person=PersonSettings("Test", path)))
-    problem = cell._control._model_problem
+    problem = cell._control._ear.model.problem
     assert str(path) in problem
     assert words in problem
     cell.shutdown()

@@ -1,0 +1,70 @@
+"""What the two arms' sensors say: the health of both streams, and the left arm's posture. Pure."""
+
+from collections.abc import Iterator
+
+from gestureapp.cell import events as e
+from gestureapp.cell.inputs import SensorTold
+from gestureapp.config import SiteSettings
+from gestureapp.sensing.posture import PostureDetector
+from gestureapp.sensing.stream import StreamTracker
+from gestureapp.sensing.values import ArmPosture, Sample, Side, StreamHealth
+
+POSTURE_FORGOTTEN_S = 0.5
+"""A left arm not heard for this long is in no posture; the watchdog has acted long before."""
+
+
+class Arms:
+    """Both streams and the posture. Owned by the control thread."""
+
+    def __init__(self, site: SiteSettings) -> None:
+        self._trackers = {
+            side: StreamTracker(side, site.trip_level_s, site.rate_min_hz, site.rate_max_hz)
+            for side in Side
+        }
+        self._detector = PostureDetector(
+            site.posture_enter_deg, site.posture_leave_deg, site.posture_debounce
+        )
+
+    @property
+    def posture(self) -> ArmPosture:
+        """What the left arm says."""
+        return self._detector.posture
+
+    def left(self, sample: Sample) -> e.LeftPosture | None:
+        """Take a sample of the left arm; the new posture if it has changed."""
+        self._trackers[Side.LEFT].sample(sample)
+        before = self._detector.posture
+        posture = self._detector.feed(sample.accel_g)
+        return e.LeftPosture(sample.t_s, posture) if posture is not before else None
+
+    def right(self, sample: Sample) -> None:
+        """Take a sample of the right arm."""
+        self._trackers[Side.RIGHT].sample(sample)
+
+    def told(self, told: SensorTold) -> None:
+        """Take whatever else a reader tells."""
+        self._trackers[told.side].event(told.t_s, told.event)
+
+    def health(self, side: Side, now_s: float) -> StreamHealth:
+        """How a stream is."""
+        return self._trackers[side].health(now_s)
+
+    def lost(self, now_s: float) -> Iterator[e.StreamLost]:
+        """The streams that are not usable now, and why."""
+        for side in Side:
+            health = self.health(side, now_s)
+            if not health.is_ok:
+                yield e.StreamLost(now_s, side, f"{side.value} sensor: {health.reason}")
+
+    def last_left_s(self, now_s: float) -> float:
+        """When the newest valid sample of the left arm came; minus infinity without one."""
+        counts_s = self._trackers[Side.LEFT].last_valid_s(now_s)
+        return float("-inf") if counts_s is None else counts_s
+
+    def forget_posture(self, now_s: float) -> e.LeftPosture | None:
+        """Of a left arm that is not heard any more nobody knows the posture."""
+        age_s = self.health(Side.LEFT, now_s).age_s
+        if age_s <= POSTURE_FORGOTTEN_S or self.posture is ArmPosture.NEITHER:
+            return None
+        self._detector.reset()
+        return e.LeftPosture(now_s, ArmPosture.NEITHER)
