@@ -3,71 +3,11 @@
 from dataclasses import dataclass, field
 from enum import Enum
 
-import numpy as np
-from numpy.typing import NDArray
-
 from gestureapp.recognition.evaluation import Evaluation
+from gestureapp.recording.take_values import Judgement as Judgement
+from gestureapp.recording.take_values import Take as Take
+from gestureapp.recording.take_values import Verdict as Verdict
 from gestureapp.sensing.values import ArmPosture
-
-F64 = NDArray[np.float64]
-
-
-class Verdict(Enum):
-    """What a take is worth; the value is the word on the screen."""
-
-    GOOD = "good"
-    NO_MOVEMENT = "no movement"
-    TOO_EARLY = "too early"
-    TOO_LATE = "too late"
-    NOT_LEVEL = "not level"
-    GAP = "gap"
-    SATURATED = "saturated"
-    UNLIKE = "unlike the others"
-
-
-@dataclass(frozen=True, slots=True)
-class Judgement:
-    """A verdict with its words, ``gap of 43 ms``, ``looks like RZ+``."""
-
-    verdict: Verdict
-    words: str
-
-    @property
-    def is_good(self) -> bool:
-        """The take counts."""
-        return self.verdict is Verdict.GOOD
-
-
-@dataclass(frozen=True, slots=True)
-class Take:
-    """One repetition of a gesture by the right arm. Arrays are read-only.
-
-    Attributes:
-        id: Number in the person's database.
-        label: The gesture that was asked for, or that it was moved to.
-        session: The sitting it is from: its begin, ISO 8601.
-        wall_s: When it was activated, seconds since the epoch.
-        judgement: The verdict it got at once.
-        is_excluded: A person has taken it out; it can be taken back.
-        is_deleted: It lies in the bin.
-        times_s: Receive times from the activation, shape (k,), from about -0.5 to 1.0.
-        accel_g: Specific force, shape (k, 3), in g.
-    """
-
-    id: int
-    label: str
-    session: str
-    wall_s: float
-    judgement: Judgement
-    is_excluded: bool
-    is_deleted: bool
-    times_s: F64
-    accel_g: F64
-
-    @property
-    def counts(self) -> bool:
-        """It is trained from."""
-        return self.judgement.is_good and not self.is_excluded and not self.is_deleted
 
 
 class Pace(Enum):

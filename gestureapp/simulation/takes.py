@@ -5,13 +5,9 @@ from numpy.typing import NDArray
 
 from gestureapp.gestures import LABELS
 from gestureapp.recognition.takes import TakeSet
+from gestureapp.recording.take_values import AFTER_S, BEFORE_S
 from gestureapp.simulation.arm import RightArm
 from gestureapp.simulation.people import Person, draw_person, practised_person
-
-BEFORE_S = 0.5
-"""A take begins this long before its activation …"""
-AFTER_S = 1.0
-"""… and ends this long after it: 1.5 s, the paper's nine minutes for 12 x 30 takes."""
 
 _ACTIVATION_S = 2.0
 _DRAW_TAKES = 4
