@@ -195,6 +195,19 @@ class PersonSettings:
 
 
 @dataclass(frozen=True, slots=True)
+class TrainingSettings:
+    """How takes are recorded.
+
+    Attributes:
+        n_takes: Good takes of each gesture that are wanted.
+        beat_s: Time between two beats of the rhythm; a take ends 1.0 s after its beat.
+    """
+
+    n_takes: int = 30
+    beat_s: float = 1.5
+
+
+@dataclass(frozen=True, slots=True)
 class Settings:
     """Everything the cell is started with."""
 
@@ -204,4 +217,5 @@ class Settings:
     robot: RobotSettings = field(default_factory=RobotSettings)
     joints: JointSettings = field(default_factory=JointSettings)
     person: PersonSettings = field(default_factory=PersonSettings)
+    training: TrainingSettings = field(default_factory=TrainingSettings)
     is_simulation: bool = False

@@ -17,6 +17,7 @@ from gestureapp.config import (
     SensorSettings,
     Settings,
     SiteSettings,
+    TrainingSettings,
 )
 from gestureapp.robot.address import is_loopback
 from gestureapp.robot.nx100 import NETWORK_INPUTS
@@ -25,7 +26,7 @@ MAX_KEEP_OUTS: Final = 8
 MAX_NAME_CHARS: Final = 30
 """Of a keep-out: it stands in the window beside its box."""
 
-_OTHER_TABLES: Final = ("left", "right", "person", "schema")
+_OTHER_TABLES: Final = ("left", "right", "person", "training", "schema")
 """Nothing in them limits motion."""
 
 _SHOWN_CHARS: Final = 60
@@ -125,6 +126,9 @@ RANGES: Final[Mapping[tuple[type, str], Range]] = {
     # Slower, and a ladder's timer would let a robot run for long; faster, and moves would wait.
     (RobotSettings, "supervision_hz"): Range(2.0, 10.0),
     (RobotSettings, "tool_mm"): Range(-1000.0, 1000.0),
+    (TrainingSettings, "n_takes"): Range(5, 200),
+    # A take ends 1.0 s after its beat, and its last sample has to arrive before the next one.
+    (TrainingSettings, "beat_s"): Range(1.1, 5.0),
     (JointSettings, "s_range_deg"): Range(-180.0, 180.0),
     (JointSettings, "l_range_deg"): Range(-180.0, 180.0),
     (JointSettings, "u_range_deg"): Range(-180.0, 180.0),

@@ -36,12 +36,20 @@ class SampleStore:
             A copy of shape (n, 4), oldest first: receive time in s on the monotonic clock, then
             x, y, z in g. Empty before the first sample.
         """
-        before = self._count
-        n = min(before, self._capacity)
-        rows = self._rows[np.arange(before - n, before) % self._capacity]
-        overwritten = self._count - before + 1 - (self._capacity - n)
-        rows = rows[max(0, overwritten) :]
+        rows, _ = self.since(0)
         if not len(rows):
             return rows
         first = int(np.searchsorted(rows[:, 0], rows[-1, 0] - span_s))
         return rows[first:]
+
+    def since(self, count: int) -> tuple[NDArray[np.float64], int]:
+        """The samples appended after the first ``count``, as far as they are still there.
+
+        Returns:
+            Rows as those of ``tail``, and the count to ask with next time.
+        """
+        before = self._count
+        n = max(0, min(before - count, self._capacity))
+        rows = self._rows[np.arange(before - n, before) % self._capacity]
+        overwritten = self._count - before + 1 - (self._capacity - n)
+        return rows[max(0, overwritten) :], before
