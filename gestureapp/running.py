@@ -16,6 +16,7 @@ from gestureapp.cell.snapshot import RecordingView
 from gestureapp.clock import monotonic
 from gestureapp.config import RobotSettings, Settings
 from gestureapp.errors import ConfigError, RobotInUse
+from gestureapp.guided.guided import Guided
 from gestureapp.recording.session_writer import SessionWriter
 from gestureapp.robot.lock import find_other
 from gestureapp.simulation.demo import DemoCell, DemoOptions
@@ -34,6 +35,7 @@ class RunningCell:
         recorder: Writes the session.
         demo: The emulators of a demo, or None.
         last_time: What the guardian did when no application could show it, or None.
+        guided: Guided training, started; nobody's takes are open.
     """
 
     cell: Cell
@@ -41,6 +43,7 @@ class RunningCell:
     recorder: SessionWriter
     demo: DemoCell | None
     last_time: LastTime | None
+    guided: Guided
 
 
 def data_folder(chosen: Path | None = None) -> Path:
@@ -76,7 +79,7 @@ def running_cell(
 
     Args:
         settings: Of the cell; in a demo the ports and the robot's address are the emulators'.
-        folder: Where sessions are recorded.
+        folder: Where sessions, takes and models are kept.
         demo: Start emulators and use them instead of hardware.
 
     Raises:
@@ -99,7 +102,10 @@ def running_cell(
         if last_time is not None:
             cell.tell(last_time.event)
         operator = emulators.operator if emulators is not None else None
-        yield RunningCell(cell, operator, recorder, emulators, last_time)
+        guided = Guided(cell, folder)
+        opened.callback(guided.shutdown)
+        guided.start_thread()
+        yield RunningCell(cell, operator, recorder, emulators, last_time, guided)
 
 
 def _refuse_second(robot: RobotSettings) -> None:
@@ -120,7 +126,7 @@ def describe(settings: Settings) -> dict[str, str]:
         "mode": "simulation" if settings.is_simulation else "live",
         "person": settings.person.name,
     }
-    for table in ("left", "right", "site", "robot", "joints", "person"):
+    for table in ("left", "right", "site", "robot", "joints", "person", "training"):
         values = getattr(settings, table)
         facts |= {f"{table}.{f.name}": str(getattr(values, f.name)) for f in fields(values)}
     return facts

@@ -29,7 +29,7 @@ class GuidedControls(Protocol):
         """Record this gesture next; ends the batch under way."""
 
     def set_pace(self, pace: Pace, beat_s: float) -> None:
-        """What begins a take; the time between two beats, 1.0 to 5.0 s."""
+        """What begins a take; the time between two beats, 1.1 to 5.0 s."""
 
     def set_wanted(self, n_takes: int) -> None:
         """How many good takes of each gesture are wanted, 5 to 200."""

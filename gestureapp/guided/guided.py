@@ -1,0 +1,330 @@
+"""Guided training as the window sees it: wishes in, a frozen picture out, one thread in between.
+
+The thread reads what the sensors' readers keep, commits takes and thinks; the window's thread only
+puts wishes into a queue and looks at the newest picture. It asks nothing of the robot.
+"""
+
+import queue
+import threading
+import time
+from collections.abc import Callable
+from concurrent.futures import Future
+from concurrent.futures import TimeoutError as FutureTimeoutError
+from dataclasses import replace
+from pathlib import Path
+from typing import Final
+
+from gestureapp.clock import Clock, monotonic
+from gestureapp.config import TrainingSettings
+from gestureapp.errors import RecordingError
+from gestureapp.guided.arms import Arms, SensedCell
+from gestureapp.guided.sitting import Plan, Sitting
+from gestureapp.guided.values import GuidedSnapshot, Pace, Phase, Take
+from gestureapp.guided.verdict import LEVEL_DEG
+from gestureapp.guided.words import CHOOSE_PERSON
+from gestureapp.recording.people import list_people
+from gestureapp.worker import Worker
+
+TICK_S: Final = 0.01
+OPEN_LIMIT_S: Final = 5.0
+"""A person's database opens within some ten milliseconds; a disk that takes longer is told."""
+WANTED_MIN: Final = 5
+WANTED_MAX: Final = 200
+
+Wish = Callable[["Desk"], None]
+"""What the window asks of the thread."""
+
+
+class Desk:
+    """What the thread owns: both arms, the open person and the plan. No thread of its own.
+
+    Args:
+        cell: Whose sensors.
+        data: The data folder.
+        settings: How takes are recorded.
+        clock: Monotonic seconds.
+        wall_clock: Seconds since the epoch.
+
+    Attributes:
+        picture: The newest; any thread.
+        takes: Those of the open person without the bin's, oldest first; any thread.
+    """
+
+    def __init__(
+        self,
+        cell: SensedCell,
+        data: Path,
+        settings: TrainingSettings,
+        clock: Clock,
+        wall_clock: Clock,
+    ) -> None:
+        self._data = data
+        self._clock, self._wall_clock = clock, wall_clock
+        self._arms = Arms(cell)
+        self._plan = Plan(Pace.HANDS_FREE, settings.beat_s, settings.n_takes)
+        self.sitting: Sitting | None = None
+        self._version_before = 0
+        self._version = -1
+        self.picture = GuidedSnapshot()
+        self.takes: tuple[Take, ...] = ()
+
+    def step(self) -> None:
+        """One tick: take what has come, let time pass, draw the picture."""
+        now_s = self._clock()
+        news = self._arms.step(now_s)
+        if self.sitting is not None:
+            self.sitting.step(now_s, self._wall_clock(), news.postures)
+        self._draw(now_s)
+
+    def open(self, person: str) -> None:
+        """Open a person's takes, putting those of another away.
+
+        Raises:
+            RecordingError: they cannot be opened; nobody's are open then.
+        """
+        self.close()
+        self.sitting = Sitting(self._data, person, self._plan, self._arms, self._wall_clock())
+        self._draw(self._clock())
+
+    def close(self) -> None:
+        """Put the person's takes away. Idempotent."""
+        if self.sitting is not None:
+            self.sitting.close()
+            self._version_before += self.sitting.version + 1
+        self.sitting = None
+        self._draw(self._clock())
+
+    def start(self) -> None:
+        """Begin a batch."""
+        if self.sitting is not None:
+            self.sitting.start(self._clock())
+
+    def go_on(self) -> None:
+        """Go on after a pause."""
+        if self.sitting is not None:
+            self.sitting.go_on(self._clock())
+
+    def set_pace(self, pace: Pace, beat_s: float) -> None:
+        """Record like this from the next batch on."""
+        self._set_plan(replace(self._plan, pace=pace, beat_s=beat_s))
+
+    def set_wanted(self, n_takes: int) -> None:
+        """Want so many good takes of each gesture."""
+        wanted = min(max(n_takes, WANTED_MIN), WANTED_MAX)
+        self._set_plan(replace(self._plan, wanted=wanted))
+
+    def _set_plan(self, plan: Plan) -> None:
+        self._plan = plan
+        if self.sitting is not None:
+            self.sitting.set_plan(plan)
+
+    def _draw(self, now_s: float) -> None:
+        tilt_deg = self._arms.tilt_deg(now_s)
+        common = GuidedSnapshot(
+            t_s=now_s,
+            pace=self._plan.pace,
+            beat_s=self._plan.beat_s,
+            tilt_deg=tilt_deg,
+            is_level=tilt_deg <= LEVEL_DEG,
+            posture=self._arms.posture,
+            version=self._version_before,
+            sentence=CHOOSE_PERSON,
+        )
+        self.picture = common if self.sitting is None else self._with_sitting(common, self.sitting)
+
+    def _with_sitting(self, common: GuidedSnapshot, sitting: Sitting) -> GuidedSnapshot:
+        batch = sitting.batch
+        version = self._version_before + sitting.version
+        if version != self._version:
+            self._version, self.takes = version, sitting.takes()
+        picture = replace(
+            common,
+            person=sitting.person,
+            phase=sitting.phase,
+            label=sitting.label,
+            suggested=sitting.suggested,
+            progress=sitting.progress,
+            sentence=sitting.sentence(),
+            trouble=sitting.trouble,
+            undo=sitting.undo_words,
+            redo=sitting.redo_words,
+            version=version,
+        )
+        if batch is None:
+            return picture
+        return replace(
+            picture,
+            count_in=batch.count_in(common.t_s),
+            activation_s=batch.activation_s,
+            next_beat_s=batch.next_beat_s,
+            n_in_batch=sitting.n_in_batch,
+            batch_size=batch.size,
+            batch=sitting.batch_takes(),
+        )
+
+
+class Guided:
+    """Guided training with its thread; implements ``GuidedControls``.
+
+    Args:
+        cell: Whose sensors.
+        data: The data folder.
+        clock: Monotonic seconds.
+        wall_clock: Seconds since the epoch.
+    """
+
+    def __init__(
+        self,
+        cell: SensedCell,
+        data: Path,
+        clock: Clock = monotonic,
+        wall_clock: Clock = time.time,
+    ) -> None:
+        self._data = data
+        self._desk = Desk(cell, data, cell.settings.training, clock, wall_clock)
+        self._wishes: queue.SimpleQueue[Wish] = queue.SimpleQueue()
+        self._worker = Worker("guided training", self._run)
+
+    def start_thread(self) -> None:
+        """Start the thread. Once only."""
+        self._worker.start()
+
+    def shutdown(self) -> None:
+        """End the thread; takes in progress are dropped, all others are kept. Idempotent."""
+        self._worker.stop(OPEN_LIMIT_S)
+
+    def snapshot(self) -> GuidedSnapshot:
+        """The newest frozen picture; polled at the display rate."""
+        return self._desk.picture
+
+    def people(self) -> tuple[str, ...]:
+        """Names of everybody who has takes here."""
+        return list_people(self._data)
+
+    def open(self, person: str) -> None:
+        """Choose whose takes these are; a new name begins a new database.
+
+        Raises:
+            RecordingError: it cannot be opened or made; says why and what to do.
+        """
+        self._ask_and_wait(lambda desk: desk.open(person))
+
+    def close(self) -> None:
+        """End the batch and put the person's database away. Idempotent."""
+        self._ask_and_wait(Desk.close)
+
+    def choose(self, label: str) -> None:
+        """Record this gesture next; ends the batch under way."""
+        self._ask(lambda sitting: sitting.choose(label))
+
+    def set_pace(self, pace: Pace, beat_s: float) -> None:
+        """What begins a take, from the next batch on; the time between two beats, 1.1 to 5.0 s."""
+        self._wishes.put(lambda desk: desk.set_pace(pace, beat_s))
+
+    def set_wanted(self, n_takes: int) -> None:
+        """How many good takes of each gesture are wanted, 5 to 200."""
+        self._wishes.put(lambda desk: desk.set_wanted(n_takes))
+
+    def start(self) -> None:
+        """Begin a batch of the chosen gesture: a count-in, then takes."""
+        self._wishes.put(Desk.start)
+
+    def pause(self) -> None:
+        """Hold the batch; the take in progress is dropped."""
+        self._ask(Sitting.pause)
+
+    def go_on(self) -> None:
+        """Go on after a pause, with a count-in."""
+        self._wishes.put(Desk.go_on)
+
+    def end_batch(self) -> None:
+        """End the batch; what was taken is kept."""
+        self._ask(Sitting.end_batch)
+
+    def redo_last(self) -> None:
+        """Put the last take of the batch into the bin: it is done again."""
+        self._ask(Sitting.redo_last)
+
+    def undo(self) -> None:
+        """Take back the last change of the takes: a take, exclusion, move or deletion."""
+        self._ask(Sitting.undo)
+
+    def redo(self) -> None:
+        """Do it again after all."""
+        self._ask(Sitting.redo)
+
+    def exclude(self, take_id: int, *, is_excluded: bool = True) -> None:
+        """Take a take out of the training, or back in."""
+        self._ask(lambda sitting: sitting.exclude(take_id, is_excluded=is_excluded))
+
+    def move(self, take_id: int, label: str) -> None:
+        """Say that a take shows another gesture."""
+        self._ask(lambda sitting: sitting.move(take_id, label))
+
+    def delete(self, take_id: int) -> None:
+        """Put a take into the bin; ``undo`` gets it back."""
+        self._ask(lambda sitting: sitting.delete(take_id))
+
+    def takes(self, label: str = "") -> tuple[Take, ...]:
+        """The takes of a gesture, or all, oldest first, without the bin's."""
+        if self._desk.picture.phase is Phase.CLOSED:
+            return ()
+        takes = self._desk.takes
+        return tuple(take for take in takes if take.label == label) if label else takes
+
+    def start_trying(self, per_gesture: int = 5) -> None:
+        """Ask for every gesture so often, in random order, and count what the model hears."""
+
+    def stop_trying(self) -> None:
+        """End it; what was counted is kept."""
+
+    # The thread.
+
+    def _ask(self, act: Callable[[Sitting], None]) -> None:
+        """Let the thread do something with the open takes, if any are."""
+
+        def wish(desk: Desk) -> None:
+            if desk.sitting is not None:
+                act(desk.sitting)
+
+        self._wishes.put(wish)
+
+    def _ask_and_wait(self, wish: Wish) -> None:
+        answer: Future[None] = Future()
+
+        def answered(desk: Desk) -> None:
+            try:
+                wish(desk)
+            except RecordingError as error:
+                answer.set_exception(error)
+            else:
+                answer.set_result(None)
+
+        if not self._worker.is_alive:
+            return
+        self._wishes.put(answered)
+        try:
+            answer.result(OPEN_LIMIT_S)
+        except FutureTimeoutError as error:
+            reason = f"the disk has not answered for {OPEN_LIMIT_S:g} s; check it, then try again"
+            raise RecordingError(self._data, reason) from error
+
+    def _run(self, stopping: threading.Event) -> None:
+        next_s = monotonic()
+        try:
+            while not stopping.is_set():
+                self._grant(next_s - monotonic())
+                now_s = monotonic()
+                if now_s >= next_s:
+                    self._desk.step()
+                    next_s = now_s + TICK_S
+        finally:
+            self._desk.close()
+
+    def _grant(self, wait_s: float) -> None:
+        """Wait for a wish at most so long, and fulfil it."""
+        try:
+            wish = self._wishes.get(timeout=max(0.0, wait_s))
+        except queue.Empty:
+            return
+        wish(self._desk)

@@ -1,0 +1,264 @@
+"""One person's takes, open, with the batch under way: what the guided thread drives.
+
+Owned by the guided thread; knows its clock only as an argument. Everything that may fail on the
+disk ends in ``trouble``, a line for the person, and a pause; what was taken before stays.
+"""
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from datetime import UTC, datetime
+from pathlib import Path
+from typing import Final
+
+from gestureapp.errors import RecordingError
+from gestureapp.guided import order
+from gestureapp.guided.arms import Arms
+from gestureapp.guided.batch import Batch
+from gestureapp.guided.quality import quality_of
+from gestureapp.guided.values import GestureProgress, Pace, Phase, Quality
+from gestureapp.guided.verdict import judge
+from gestureapp.guided.words import batch_sentence, idle_sentence
+from gestureapp.recording.take_store import NewTake, TakeStore
+from gestureapp.recording.take_values import Take
+from gestureapp.sensing.values import ArmPosture
+
+SAME_SITTING_S: Final = 1800.0
+"""Who comes back sooner (after a break, a fault, a restart) still sits there with the sensors on:
+takes of one sitting must not be split, or a model would be checked on what it has learned from."""
+
+
+@dataclass(frozen=True, slots=True)
+class Plan:
+    """How to record, as the person has chosen it.
+
+    Attributes:
+        pace: What begins a take.
+        beat_s: Time between two beats.
+        wanted: Good takes of each gesture.
+    """
+
+    pace: Pace
+    beat_s: float
+    wanted: int
+
+
+class Sitting:
+    """A person's open database and the batch under way. Owned by the guided thread.
+
+    Args:
+        data: The data folder.
+        person: Whose takes.
+        plan: How to record.
+        arms: Both arms.
+        wall_s: Now, seconds since the epoch.
+
+    Raises:
+        RecordingError: the database cannot be opened; says why and what to do.
+
+    Attributes:
+        label: The gesture that is, or would be, recorded; empty when all is done.
+        batch: The batch under way or the last one, or None.
+        trouble: Takes cannot be kept, with cause and remedy; empty when they can.
+        version: Grows with every change of the takes.
+        progress: Of every gesture.
+        suggested: What to record next; empty when all is done.
+    """
+
+    def __init__(self, data: Path, person: str, plan: Plan, arms: Arms, wall_s: float) -> None:
+        self._store = TakeStore(data, person)
+        self._arms = arms
+        self._plan = plan
+        self._session = _session_of(self._store.takes(), wall_s)
+        self._batch_ids: list[int] = []
+        self._batch_label = ""
+        self._qualities: Mapping[str, Quality] = {}
+        self._good: dict[str, int] = {}
+        self.batch: Batch | None = None
+        self.trouble = ""
+        self.version = 0
+        self.progress: tuple[GestureProgress, ...] = ()
+        self.suggested = ""
+        self._count()
+        self.label = self.suggested
+
+    @property
+    def person(self) -> str:
+        """Whose takes these are."""
+        return self._store.person
+
+    @property
+    def undo_words(self) -> str:
+        """What undo would take back; empty when nothing."""
+        return self._store.undo_words
+
+    @property
+    def redo_words(self) -> str:
+        """What redo would do again; empty when nothing."""
+        return self._store.redo_words
+
+    @property
+    def phase(self) -> Phase:
+        """Where the recording stands."""
+        return Phase.IDLE if self.batch is None else self.batch.phase
+
+    @property
+    def n_in_batch(self) -> int:
+        """Good takes of the batch."""
+        label = self._batch_label
+        return sum(1 for take in self.batch_takes() if take.counts and take.label == label)
+
+    def takes(self) -> tuple[Take, ...]:
+        """All takes, oldest first, without the bin's."""
+        return tuple(take for take in self._store.takes() if not take.is_deleted)
+
+    def batch_takes(self) -> tuple[Take, ...]:
+        """Those of the batch, oldest first, without the bin's."""
+        ids = set(self._batch_ids)
+        return tuple(take for take in self.takes() if take.id in ids)
+
+    def sentence(self) -> str:
+        """What to do now, or why it does not go on."""
+        if self.batch is None or self.batch.is_over:
+            return idle_sentence(self.label, self.suggested)
+        return batch_sentence(self.batch, self.label, self._good[self.label])
+
+    def close(self) -> None:
+        """End the batch and put the database away. Idempotent."""
+        self.end_batch()
+        self._store.close()
+
+    # The batch.
+
+    def set_plan(self, plan: Plan) -> None:
+        """Record like this from the next batch on."""
+        self._plan = plan
+        self._count()
+
+    def choose(self, label: str) -> None:
+        """Record this gesture next; ends the batch under way."""
+        if label in self._good:
+            self.end_batch()
+            self.label = label
+
+    def start(self, now_s: float) -> None:
+        """Begin a batch of the chosen gesture."""
+        self.label = self.label or self.suggested
+        if not self.label:
+            return
+        self.trouble = ""
+        self._batch_ids, self._batch_label = [], self.label
+        size = order.batch_size(self._good[self.label], self._plan.wanted)
+        pace, beat_s = self._plan.pace, self._plan.beat_s
+        self.batch = Batch(pace, beat_s, size, now_s, self._arms.posture)
+
+    def pause(self) -> None:
+        """Hold the batch; the take in progress is dropped."""
+        if self.batch is not None:
+            self.batch.pause()
+
+    def go_on(self, now_s: float) -> None:
+        """Go on after a pause."""
+        if self.batch is not None:
+            self.trouble = ""
+            self.batch.go_on(now_s)
+
+    def end_batch(self) -> None:
+        """End the batch; what was taken is kept."""
+        if self.batch is not None:
+            self.batch.end()
+
+    # The takes.
+
+    def redo_last(self) -> None:
+        """Put the last take of the batch into the bin."""
+        takes = self.batch_takes()
+        if takes:
+            self.delete(takes[-1].id)
+
+    def undo(self) -> None:
+        """Take back the last change of the takes."""
+        self._change(lambda store: store.undo())
+
+    def redo(self) -> None:
+        """Do it again after all."""
+        self._change(lambda store: store.redo())
+
+    def exclude(self, take_id: int, *, is_excluded: bool) -> None:
+        """Take a take out of the training, or back in."""
+        self._change(lambda store: store.exclude(take_id, is_excluded=is_excluded))
+
+    def move(self, take_id: int, label: str) -> None:
+        """Say that a take shows another gesture."""
+        if label in self._good:
+            self._change(lambda store: store.move(take_id, label))
+
+    def delete(self, take_id: int) -> None:
+        """Put a take into the bin."""
+        self._change(lambda store: store.delete(take_id))
+
+    # Time.
+
+    def step(
+        self, now_s: float, wall_s: float, postures: tuple[tuple[float, ArmPosture], ...]
+    ) -> None:
+        """Let time pass: ``postures`` of the left arm came since the last step."""
+        batch = self.batch
+        if batch is None or batch.is_over:
+            return
+        for t_s, posture in postures:
+            batch.left(t_s, posture)
+        lost = self._arms.lost(with_left=batch.pace is Pace.HANDS_FREE)
+        activation_s = batch.tick(now_s, lost)
+        if activation_s is not None:
+            self._keep(activation_s, wall_s - (now_s - activation_s))
+            self._prefer_suggestion()
+
+    def _prefer_suggestion(self) -> None:
+        """After a batch the next gesture is chosen already."""
+        if self.phase is Phase.IDLE and self.suggested:
+            self.label = self.suggested
+
+    def _keep(self, activation_s: float, wall_s: float) -> None:
+        times_s, accel_g = self._arms.cut(activation_s)
+        judgement = judge(self.label, times_s, accel_g, self.takes())
+        new = NewTake(self.label, self._session, wall_s, judgement, times_s, accel_g)
+        try:
+            take = self._store.add(new)
+        except RecordingError as error:
+            self._fail(error)
+            return
+        self._batch_ids.append(take.id)
+        self._changed()
+
+    def _change(self, act: Callable[[TakeStore], object]) -> None:
+        try:
+            act(self._store)
+        except RecordingError as error:
+            self._fail(error)
+        else:
+            self._changed()
+
+    def _changed(self) -> None:
+        self.trouble = ""
+        self.version += 1
+        self._count()
+        if self.batch is not None and not self.batch.is_over:
+            self.batch.judged(self.n_in_batch)
+
+    def _fail(self, error: RecordingError) -> None:
+        self.trouble = str(error)
+        self.pause()
+
+    def _count(self) -> None:
+        takes = self.takes()
+        self._good = order.count_good(takes)
+        self._qualities = quality_of(takes)
+        self.progress = order.progress(self._good, self._plan.wanted, self._qualities)
+        self.suggested = order.suggest(self._good, self._plan.wanted)
+
+
+def _session_of(takes: tuple[Take, ...], wall_s: float) -> str:
+    """The sitting that goes on, or a new one."""
+    if takes and 0.0 <= wall_s - takes[-1].wall_s < SAME_SITTING_S:
+        return takes[-1].session
+    return datetime.fromtimestamp(wall_s, UTC).isoformat(timespec="seconds")

@@ -1,0 +1,60 @@
+"""What guided recording says to the person, one sentence for every moment. Pure."""
+
+from gestureapp.gestures import Kind, gesture
+from gestureapp.guided.batch import Batch
+from gestureapp.guided.values import Pace, Phase
+
+CHOOSE_PERSON = "Choose whose takes these are."
+ALL_DONE = "All takes are there: look at them, then train."
+
+
+def idle_sentence(label: str, suggested: str) -> str:
+    """Between batches: ``label`` is what would be recorded."""
+    if not suggested and not label:
+        return ALL_DONE
+    words = f"{label}: {gesture(label).words}. Start when you are ready."
+    return words if suggested else f"{ALL_DONE} Or record more of {words}"
+
+
+def batch_sentence(batch: Batch, label: str, n_good: int) -> str:
+    """During a batch; ``n_good`` takes of the gesture count, of this batch and all before."""
+    match batch.phase:
+        case Phase.PAUSED:
+            return f"Paused; {_kept(n_good)}."
+        case Phase.SENSOR_LOST:
+            side = batch.lost.value.capitalize() if batch.lost else "A"
+            lost = f"{side} sensor lost during take {n_good + 1}; {_kept(n_good)}"
+            return f"{lost}. It goes on by itself when the sensor is back."
+        case Phase.COUNT_IN:
+            return f"Get ready: {gesture(label).words}."
+    if batch.pace is Pace.RHYTHM:
+        return _by_rhythm(label)
+    if batch.phase is Phase.TAKING:
+        return "Now back to the start, and the left arm down."
+    if not batch.is_left_rested:
+        return "Lower the left arm to the stop posture."
+    return _hands_free(label)
+
+
+def _by_rhythm(label: str) -> str:
+    words = gesture(label).words
+    if is_held(label):
+        return f"{words.capitalize()}: be there at each beat, then back to level."
+    return f"{words.capitalize()} at each beat, then back to the start."
+
+
+def _hands_free(label: str) -> str:
+    words = gesture(label).words
+    if is_held(label):
+        return f"{words.capitalize()}; then raise the left arm."
+    return f"{words.capitalize()} as you raise the left arm."
+
+
+def is_held(label: str) -> bool:
+    """Whether gravity shows the gesture, so that it is held when the activation comes."""
+    wanted = gesture(label)
+    return wanted.kind is Kind.POSTURE and wanted.axis != 2
+
+
+def _kept(n_good: int) -> str:
+    return "1 good take is kept" if n_good == 1 else f"{n_good} good takes are kept"
