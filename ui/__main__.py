@@ -13,7 +13,14 @@ def open_window(
     """Show the window of a running cell until it is closed; the exit code."""
     from ui.app import run_window
 
-    return run_window(running.cell, running.operator, exit_after_s, driver, running.last_time)
+    return run_window(
+        running.cell,
+        running.operator,
+        exit_after_s,
+        driver,
+        running.last_time,
+        running.guided,
+    )
 
 
 def show_refusal(text: str) -> None:

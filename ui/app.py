@@ -25,6 +25,7 @@ from PySide6.QtWidgets import QApplication, QMessageBox
 from gestureapp.cell.controls import CellControls
 from gestureapp.cell.last_time import LastTime
 from gestureapp.clock import monotonic
+from gestureapp.guided.controls import GuidedControls, TrainerControls
 from gestureapp.window_port import Driver
 from gestureapp.worker import Worker
 from ui.hands import Hands
@@ -54,6 +55,8 @@ def run_window(
     exit_after_s: float | None = None,
     driver: Driver | None = None,
     last_time: LastTime | None = None,
+    guided: GuidedControls | None = None,
+    trainer: TrainerControls | None = None,
 ) -> int:
     """Show the cell until the window is closed; then the cell is shut down.
 
@@ -66,6 +69,8 @@ def run_window(
         exit_after_s: Close the window by itself after this time, for unattended runs.
         driver: Uses the window as a person would, in a thread of its own.
         last_time: What the guardian did when no window could show it.
+        guided: Records and tries takes; without it there is no training.
+        trainer: Trains the model.
 
     Returns:
         The exit code: 0.
@@ -74,7 +79,7 @@ def run_window(
     app = _application()
     Theme(app)
     try:
-        window = MainWindow(cell, virtual)
+        window = MainWindow(cell, virtual, guided=guided, trainer=trainer)
         try:
             with _hooks(cell, window):
                 _fit(window)

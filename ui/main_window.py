@@ -11,13 +11,18 @@ from gestureapp.cell.controls import CellControls
 from gestureapp.cell.last_time import LastTime
 from gestureapp.cell.snapshot import Snapshot
 from gestureapp.clock import Clock, monotonic
+from gestureapp.guided.controls import GuidedControls, TrainerControls
 from ui.alarm_bars import AlarmBars
 from ui.last_time_bar import LastTimeBar
+from ui.nav_rail import NavRail, Place
+from ui.notice_bar import NoticeBar
 from ui.notice_row import NoticeRow
 from ui.operate_page import OperatePage, framed
 from ui.pages import PageStack, scrolling
 from ui.status_strip import StatusStrip
 from ui.stop_slab import StopKeys, StopSlab
+from ui.train_page import TrainPage
+from ui.train_words import training_barrier
 from ui.virtual_operator import VirtualOperator, VirtualOperatorPanel
 
 log = logging.getLogger(__name__)
@@ -47,18 +52,24 @@ class MainWindow(QMainWindow):
         cell: CellControls,
         virtual: VirtualOperator | None = None,
         clock: Clock = monotonic,
+        guided: GuidedControls | None = None,
+        trainer: TrainerControls | None = None,
         parent: QWidget | None = None,
     ) -> None:
         super().__init__(parent)
         self.setObjectName("mainWindow")
         self.setWindowTitle("Gesture control of the robot cell")
         self.n_failed = 0
+        self._place = Place.OPERATE
         self._cell = cell
         self._strip = StatusStrip()
         self._bars = AlarmBars(clock)
         self._last_time = LastTimeBar()
         self._operate = OperatePage(cell, clock)
-        self._pages = PageStack()
+        self._train = None if guided is None else TrainPage(cell, guided, trainer)
+        self._notice = NoticeBar("trainNotice")
+        self._pages = PageStack("pages")
+        self._rail = NavRail((Place.OPERATE,) if guided is None else tuple(Place))
         self._slab = StopSlab()
         self._virtual = VirtualOperatorPanel(virtual) if virtual is not None else None
         self._lay_out()
@@ -90,6 +101,23 @@ class MainWindow(QMainWindow):
             self._bars.show_blind("")
         self._cell.gui_tick()
 
+    def go_to(self, place: Place) -> None:
+        """Open another page. While the training is in sight nothing can be armed.
+
+        Its entry on the rail is closed while the robot is not at rest.
+        """
+        if self._train is None or place is self._place:
+            return
+        self._place = place
+        is_training = place is Place.TRAIN
+        if not is_training:
+            self._train.leave()
+            self._notice.show_text("")
+        self._cell.hold_for_training(is_training)
+        self._rail.show_place(place)
+        self._pages.setCurrentWidget(self._train if is_training else self._operate)
+        self.poll()
+
     def stop(self) -> None:
         """STOP was pressed, by mouse or key."""
         self._cell.stop()
@@ -119,10 +147,16 @@ class MainWindow(QMainWindow):
     def _show(self, snapshot: Snapshot) -> None:
         self._bars.show_unconfirmed(snapshot.is_stop_unconfirmed)
         self._strip.show_snapshot(snapshot)
-        self._operate.show_snapshot(snapshot)
+        self._rail.show_note(Place.TRAIN, training_barrier(snapshot))
+        if self._train is not None and self._pages.currentWidget() is self._train:
+            self._train.show_snapshot(snapshot)
+            self._notice.show_text(self._train.notice)
+        else:
+            self._operate.show_snapshot(snapshot)
 
     def _connect(self) -> None:
         self._slab.button.pressed.connect(self.stop)
+        self._rail.chosen.connect(self.go_to)
         self._keys = StopKeys(self.stop, self)
         app = QApplication.instance()
         if app is not None:
@@ -135,10 +169,16 @@ class MainWindow(QMainWindow):
 
     def _lay_out(self) -> None:
         framed(self._strip)
+        framed(self._rail)
         self._pages.addWidget(self._operate)
+        if self._train is not None:
+            self._pages.addWidget(self._train)
+        middle = QHBoxLayout()
+        middle.addWidget(self._rail)
+        middle.addWidget(self._pages, 1)
         work = QVBoxLayout()
         work.setContentsMargins(0, 0, 0, 0)
-        work.addWidget(self._pages, 1)
+        work.addLayout(middle, 1)
         if self._virtual is not None:
             framed(self._virtual)
             work.addWidget(self._virtual)
@@ -150,9 +190,9 @@ class MainWindow(QMainWindow):
         column_of_all = QVBoxLayout(whole)
         column_of_all.setContentsMargins(0, 0, 0, 0)
         column_of_all.addWidget(self._strip)
-        column_of_all.addWidget(NoticeRow(self._last_time, self._bars))
+        column_of_all.addWidget(NoticeRow(self._notice, self._last_time, self._bars))
         column_of_all.addLayout(body, 1)
-        for layout in (work, body, column_of_all):
+        for layout in (middle, work, body, column_of_all):
             layout.setSpacing(6)
         self.setCentralWidget(whole)
         self.setMinimumSize(QSize(*_LEAST).boundedTo(self.screen().availableSize()))

@@ -103,7 +103,16 @@ def mode_chip(is_simulation: bool) -> Chip:
 
 
 def strip_line(snapshot: Snapshot) -> str:
-    """What is wrong with the devices, in plain text; the session's particulars when nothing is."""
+    """What is wrong with the devices, in plain text; the session's particulars when nothing is.
+
+    What locks arming stands before either.
+    """
+    line = _devices_line(snapshot)
+    lock = next((blocker.text for blocker in snapshot.blockers if blocker.id == "lock"), "")
+    return f"{lock[0].upper()}{lock[1:]}: arming is locked   |   {line}" if lock else line
+
+
+def _devices_line(snapshot: Snapshot) -> str:
     left = stream_chip(snapshot.left, snapshot.trip_level_s).reason
     right = stream_chip(snapshot.right, snapshot.trip_level_s).reason
     robot = robot_chip(snapshot.robot).reason

@@ -4,6 +4,7 @@ import os
 from collections.abc import Callable, Iterator
 from dataclasses import replace
 from math import pi, sin
+from pathlib import Path
 from types import SimpleNamespace
 
 import pytest
@@ -215,6 +216,12 @@ class FakeCell:
 
     def servo_off(self) -> None:
         self.calls.append("servo_off")
+
+    def use_model(self, path: Path, problem: str = "") -> None:
+        self.calls.append(f"use_model {path} {problem}".strip())
+
+    def hold_for_training(self, is_open: bool) -> None:
+        self.calls.append("training open" if is_open else "training closed")
 
     def shutdown(self) -> None:
         self.calls.append("shutdown")
