@@ -9,10 +9,18 @@ from PySide6.QtGui import QKeySequence, QShortcut
 from PySide6.QtWidgets import QFrame, QGridLayout, QHBoxLayout, QPushButton, QVBoxLayout, QWidget
 
 from gestureapp.gestures import GESTURES
+from gestureapp.guided.values import GuidedSnapshot
+from gestureapp.simulation.prompts import NOTHING, Prompt
 from ui.labels import ElidedLabel, plain
+from ui.prompts import prompt_of
 from ui.theme import SMALL_PX, TEXT_PX, sized
 
 HOW = "A gesture is made with both arms together: the left arm is raised as the right arm moves"
+FOLLOW_TIP = (
+    "While guided training asks for gestures, the arms make them, with the timing of the person "
+    "who wears the sensors; about one take in fifteen is done wrong on purpose. Moving an arm "
+    "by hand ends it."
+)
 GESTURE_KEYS = {
     "X+": "Up",
     "X-": "Down",
@@ -46,6 +54,9 @@ class VirtualOperator(Protocol):
     def right_rest(self) -> None:
         """The right arm goes back to rest."""
 
+    def follow(self, prompt: Prompt) -> None:
+        """Do what a person is asked to do; called at every refresh while prompts are followed."""
+
     def silence_left(self) -> None:
         """The left sensor sends nothing any more."""
 
@@ -63,6 +74,9 @@ class VirtualOperatorPanel(QFrame):
         super().__init__(parent)
         self.setObjectName("virtualOperatorPanel")
         self._operator = operator
+        self._follow = self._button("followPrompts", "", "follow prompts", "T", self._toggled)
+        self._follow.setCheckable(True)
+        self._follow.setToolTip(FOLLOW_TIP)
         title = plain("virtualOperatorTitle", TEXT_PX, is_wrapped=False)
         title.setText("Virtual operator")
         sized(title, TEXT_PX, is_bold=True)
@@ -82,14 +96,26 @@ class VirtualOperatorPanel(QFrame):
         for column in range(1, 7):
             grid.setColumnStretch(column, 1)
         self._add_buttons(grid)
+        grid.addWidget(self._follow, 1, 1 + len(GESTURES) // 2)
         layout = QVBoxLayout(self)
         layout.setContentsMargins(10, 4, 10, 6)
         layout.setSpacing(4)
         layout.addLayout(head)
         layout.addLayout(grid)
 
-    def refresh(self) -> None:
-        """Show what the arms are doing now."""
+    @property
+    def is_following(self) -> bool:
+        """Whether the arms do what training asks for."""
+        return self._follow.isChecked()
+
+    def refresh(self, guided: GuidedSnapshot | None = None) -> None:
+        """Show what the arms are doing now, and let them do what is asked for.
+
+        Args:
+            guided: What training shows; None while it is not to be seen.
+        """
+        if self.is_following:
+            self._operator.follow(NOTHING if guided is None else prompt_of(guided))
         doing = self._operator.describe()
         if doing != self._doing.text():
             self._doing.setText(doing)
@@ -98,9 +124,9 @@ class VirtualOperatorPanel(QFrame):
         operator = self._operator
         last = 1 + len(GESTURES) // 2
         for name, text, key, row, column, act in (
-            ("leftStart", "left arm: START", "S", 0, 0, operator.left_start),
-            ("leftStop", "left arm: STOP", "A", 1, 0, operator.left_stop),
-            ("rightRest", "right arm: rest", "D", 0, last, operator.right_rest),
+            ("leftStart", "left arm: START", "S", 0, 0, self._by_hand(operator.left_start)),
+            ("leftStop", "left arm: STOP", "A", 1, 0, self._by_hand(operator.left_stop)),
+            ("rightRest", "right arm: rest", "D", 0, last, self._by_hand(operator.right_rest)),
             ("silenceLeft", "silence left", "F", 0, last + 1, operator.silence_left),
             ("restoreSensors", "restore sensors", "G", 1, last + 1, operator.restore_sensors),
         ):
@@ -112,9 +138,23 @@ class VirtualOperatorPanel(QFrame):
                 label,
                 gesture.words,
                 GESTURE_KEYS[label],
-                partial(operator.gesture, label),
+                self._by_hand(partial(operator.gesture, label)),
             )
             grid.addWidget(button, i // 6, 1 + i % 6)
+
+    def _by_hand(self, act: Callable[[], None]) -> Callable[[], None]:
+        """Who moves an arm by hand has taken it from the prompts."""
+
+        def acted() -> None:
+            if self.is_following:
+                self._follow.click()
+            act()
+
+        return acted
+
+    def _toggled(self) -> None:
+        if not self.is_following:
+            self._operator.follow(NOTHING)
 
     def _button(
         self, name: str, label: str, words: str, key: str, act: Callable[[], None]

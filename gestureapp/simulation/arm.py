@@ -64,12 +64,21 @@ class RightArm:
         self._home = np.zeros(N_COORDINATES)
         self._find_level(-math.inf)
 
-    def perform(self, label: str, t_s: float) -> None:
+    def perform(
+        self, label: str, t_s: float, hold_s: float | None = None, back_s: float | None = None
+    ) -> None:
         """Start the movement of a gesture at this time, now or later.
 
         What was asked for and has not begun by then (also the way back) is dropped. A movement is
         made along the hand's own axes, so it reads the same after a turn about Z. The hand goes
         back by itself after a movement; a posture is held until ``rest`` or the next gesture.
+
+        Args:
+            label: Which gesture.
+            t_s: When it begins.
+            hold_s: How long its end is held before the hand goes back by itself, also from a
+                posture; None is the usual.
+            back_s: Duration of the way back; None is slow.
 
         Raises:
             KeyError: no gesture has this label.
@@ -78,8 +87,10 @@ class RightArm:
         self._motion.cancel_from(t_s)
         part = self._plan(wanted, t_s)
         self._motion.add(part)
-        if wanted.kind is Kind.MOVEMENT:
-            self._go_home(part.start_s + part.duration_s + HOLD_S)
+        if hold_s is None and wanted.kind is Kind.MOVEMENT:
+            hold_s = HOLD_S
+        if hold_s is not None:
+            self._go_home(part.start_s + part.duration_s + hold_s, back_s)
 
     def perform_for(self, label: str, activation_s: float) -> float:
         """Start a gesture so that it fits an activation expected at this time.
@@ -198,7 +209,7 @@ class RightArm:
         change[other] = self._slip(2.0 * person.tilt_spread_rad)
         return change
 
-    def _go_home(self, t_s: float) -> None:
+    def _go_home(self, t_s: float, back_s: float | None = None) -> None:
         self._find_level(t_s)
         change = self._home - self._motion.goal
         way_m = (
@@ -206,7 +217,8 @@ class RightArm:
             + abs(change[Coordinate.SWING]) * self.person.forearm_m
         )
         way_m += abs(change[Coordinate.YAW]) * self.person.yaw_radius_m
-        self._motion.add(Submovement(t_s, _way_back_s(way_m), tuple(change.tolist())))
+        duration_s = _way_back_s(way_m) if back_s is None else back_s
+        self._motion.add(Submovement(t_s, duration_s, tuple(change.tolist())))
 
     def _find_level(self, t_s: float) -> None:
         """Choose what this person takes for level next; at the very start, be there."""

@@ -8,15 +8,19 @@ from dataclasses import dataclass
 
 from gestureapp.clock import Clock, monotonic
 from gestureapp.errors import GestureAppError
-from gestureapp.gestures import gesture
+from gestureapp.gestures import LABELS, gesture
 from gestureapp.sensing.values import Side
 from gestureapp.simulation.control_link import ControlLink
 from gestureapp.simulation.operator_plan import OperatorPlan, Order, Timing
+from gestureapp.simulation.prompts import NOTHING, Prompt, PromptFollower
 from gestureapp.simulation.sensor_model import FaultKind
 from gestureapp.worker import Worker
 
 Address = tuple[str, int]
 """Host and port of an emulator's control port."""
+
+CLUMSY_SEED = 4
+"""Which takes are clumsy, and how, where no other seed is given: the same in every demo."""
 
 WISHES_MAX = 64
 """More wishes than this are waiting only if an emulator hangs; the oldest are forgotten."""
@@ -54,7 +58,8 @@ class OperatorClient:
             right_control: Control port of the right arm's sensor.
             timing: Of the person whose arms these are.
             clock: Monotonic seconds, the emulators' own clock.
-            seed: Chance in the coordination of the arms; None takes fresh chance.
+            seed: Chance in the coordination of the arms, and in which takes are clumsy; None
+                takes fresh chance, and ``CLUMSY_SEED``.
             trouble: What else is wrong with the emulated cell, in words; empty when nothing is.
         """
         self._clock = clock
@@ -64,6 +69,8 @@ class OperatorClient:
             Side.RIGHT: ControlLink("right sensor emulator", *right_control),
         }
         self._plan = OperatorPlan(timing, random.Random(seed))
+        clumsy = random.Random(CLUMSY_SEED if seed is None else seed)
+        self._follower = PromptFollower(self._plan, clumsy)
         self._wishes: deque[_Wish] = deque(maxlen=WISHES_MAX)
         self._changed = threading.Condition()
         self._is_busy = False
@@ -103,6 +110,15 @@ class OperatorClient:
         """Let the right hand go back to rest."""
         self._want(_Wish("right arm", self._plan.right_rest))
 
+    def follow(self, prompt: Prompt) -> None:
+        """Do what stands on the screen; say it again at every refresh, and ``NOTHING`` at the end.
+
+        A prompt that names no gesture is followed by nothing.
+        """
+        if prompt.label and prompt.label not in LABELS:
+            prompt = NOTHING
+        self._want(_Wish("prompt", lambda now_s: self._follower.orders(prompt, now_s)))
+
     def silence_left(self) -> None:
         """The left sensor sends nothing any more; its port stays open."""
         self.fault(Side.LEFT, FaultKind.SILENT)
@@ -122,6 +138,8 @@ class OperatorClient:
         """What both arms were told and what is wrong, in one line."""
         with self._changed:
             parts = [self._plan.words(self._clock())]
+            if self._follower.slip:
+                parts.append(f"clumsy on purpose: {self._follower.slip}")
             parts += [f"{side.value} sensor {kind}" for side, kind in self._faults.items()]
             trouble = self._trouble()
             if trouble:

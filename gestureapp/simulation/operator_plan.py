@@ -3,7 +3,7 @@
 import random
 from dataclasses import dataclass, field
 
-from gestureapp.gestures import Kind, gesture
+from gestureapp.gestures import Gesture, Kind, gesture
 from gestureapp.sensing.values import ArmPosture, Side
 from gestureapp.simulation.arm import TURN_BACK_S, RightArm, home_after_s, start_seen_after_s
 from gestureapp.simulation.people import Person
@@ -16,6 +16,9 @@ STOP_HELD_S = 0.6
 
 SAID_AHEAD_S = 0.7
 """A gesture that begins later than this is announced as waiting."""
+
+QUIET_S = 0.25
+"""How long the hand rests between two gestures of a brisk repetition."""
 
 LEFT_DOWN_FACTOR = 1.1
 """The left arm's turn may take a little longer than its mean."""
@@ -33,6 +36,26 @@ class Order:
 
 
 @dataclass(frozen=True, slots=True)
+class Tempo:
+    """How quickly gestures follow one another.
+
+    Attributes:
+        until_s: The end of a gesture is held until so long after the activation, then the hand goes
+            back by itself; None holds a movement as usual and a posture until told.
+        back_s: Duration of the way back, where ``until_s`` is given.
+        stop_held_s: How long the left arm stays in stop before the next start.
+    """
+
+    until_s: float | None = None
+    back_s: float = RIGHT_BACK_S
+    stop_held_s: float = STOP_HELD_S
+
+
+USUAL = Tempo()
+"""As in operation: slowly back, so that nothing on the way looks like a gesture."""
+
+
+@dataclass(frozen=True, slots=True)
 class Timing:
     """A person's times that a gesture with both arms needs, in s.
 
@@ -43,6 +66,9 @@ class Timing:
         held_lead_s: A roll or pitch begins this long before the activation.
         offset_s: Mean onset of the right arm after the activation; negative is early.
         offset_spread_s: Standard deviation of it.
+        movement_s: Duration of a movement.
+        turn_s: Duration of a turn about X or Y.
+        yaw_s: Duration of a turn about Z.
     """
 
     start_seen_s: float
@@ -51,6 +77,9 @@ class Timing:
     held_lead_s: float
     offset_s: float
     offset_spread_s: float
+    movement_s: float
+    turn_s: float
+    yaw_s: float
 
     @classmethod
     def of(cls, person: Person) -> "Timing":
@@ -62,7 +91,22 @@ class Timing:
             RightArm(person).lead_s("RX+"),
             person.offset_s,
             person.offset_spread_s,
+            person.duration_s,
+            person.turn_s,
+            person.yaw_s,
         )
+
+    def starts_after_s(self, wanted: Gesture, rng: random.Random) -> float:
+        """When the right arm begins, after the activation; negative is before it."""
+        if _is_held(wanted):
+            return -self.held_lead_s
+        return rng.gauss(self.offset_s, self.offset_spread_s)
+
+    def duration_s(self, wanted: Gesture) -> float:
+        """How long the right arm moves."""
+        if wanted.kind is Kind.MOVEMENT:
+            return self.movement_s
+        return self.turn_s if _is_held(wanted) else self.yaw_s
 
 
 @dataclass(slots=True)
@@ -74,16 +118,18 @@ class OperatorPlan:
         rng: Chance in the coordination of the arms.
         left: What the left arm was told last, in words.
         right: What the right arm was told last, in words.
+        activation_s: When the left arm will be, or was, seen in START for the last gesture.
     """
 
     timing: Timing
     rng: random.Random = field(default_factory=random.Random)
     left: str = "in stop"
     right: str = "at rest"
+    activation_s: float = float("-inf")
     _left_up_s: float | None = None
     """When the left arm begins or began to turn to START; None while it is lowered."""
-    _left_seen_down_s: float = float("-inf")
-    """From when on the left arm has been in STOP for long enough."""
+    _left_down_s: float = float("-inf")
+    """From when on the left arm is in STOP."""
     _right_begins_s: float = float("-inf")
     _right_is_turned: bool = False
     _right_home_s: float = float("-inf")
@@ -113,12 +159,20 @@ class OperatorPlan:
         self.right = "at rest"
         return [Order(Side.RIGHT, {"do": "rest"})]
 
-    def gesture(self, label: str, now_s: float) -> list[Order]:
+    def gesture(
+        self, label: str, now_s: float, tempo: Tempo = USUAL, late_s: float = 0.0
+    ) -> list[Order]:
         """Make a gesture with both arms, as soon as they are free for it.
 
         A raised left arm is lowered first and held in stop long enough to be seen; the right hand
         goes back to rest first. Roll and pitch are held before the left arm rises; everything else
         begins at the moment the left arm is seen in START, plus the person's own offset.
+
+        Args:
+            label: Which gesture.
+            now_s: Monotonic time.
+            tempo: How quickly the arms go back from it, and from the one before to it.
+            late_s: The right arm begins so much later than it should.
 
         Raises:
             KeyError: no gesture has this label.
@@ -128,28 +182,44 @@ class OperatorPlan:
         orders = self._lower_left(now_s) if self._is_left_up(now_s) else []
         if self._right_is_turned:
             orders += self.right_rest(now_s)
+        after_s = self.timing.starts_after_s(wanted, self.rng)
         ready_s = max(now_s + LEAD_S, self._right_home_s)
-        left_s = max(now_s + LEAD_S, self._left_seen_down_s)
-        if wanted.kind is Kind.POSTURE and wanted.axis != 2:
-            activation_s = max(left_s + self.timing.start_seen_s, ready_s + self.timing.held_lead_s)
-            right_s = activation_s - self.timing.held_lead_s
-        else:
-            offset_s = self.rng.gauss(self.timing.offset_s, self.timing.offset_spread_s)
-            activation_s = max(left_s + self.timing.start_seen_s, ready_s - offset_s)
-            right_s = activation_s + offset_s
-        left_s = activation_s - self.timing.start_seen_s
-        self._left_up_s, self._right_begins_s = left_s, right_s
-        self._right_is_turned = wanted.kind is Kind.POSTURE
-        self._home_before_s = self._right_home_s
-        if not self._right_is_turned:
-            self._right_home_s = right_s + self.timing.home_after_s
-        self.left, self.right = "raised: start", f"{label}, {wanted.words}"
-        start = ArmPosture.START.value
+        left_s = max(now_s + LEAD_S, self._left_down_s + tempo.stop_held_s)
+        self.activation_s = max(left_s + self.timing.start_seen_s, ready_s - after_s)
+        left_s = self._left_up_s = self.activation_s - self.timing.start_seen_s
+        self.left = "raised: start"
         return [
             *orders,
-            Order(Side.LEFT, {"do": "take", "posture": start, "at_s": left_s}),
-            Order(Side.RIGHT, {"do": "perform", "label": label, "at_s": right_s}),
+            Order(Side.LEFT, {"do": "take", "posture": ArmPosture.START.value, "at_s": left_s}),
+            self._perform(wanted, self.activation_s, after_s + late_s, tempo),
         ]
+
+    def on_beat(self, label: str, beat_s: float, tempo: Tempo, late_s: float = 0.0) -> list[Order]:
+        """Make a gesture with the right arm alone, so that it fits a beat.
+
+        Args:
+            label: Which gesture.
+            beat_s: When the beat comes, monotonic.
+            tempo: How quickly the hand goes back from it.
+            late_s: It begins so much later than it should.
+
+        Raises:
+            KeyError: no gesture has this label.
+        """
+        wanted = gesture(label)
+        self.activation_s = beat_s
+        after_s = self.timing.starts_after_s(wanted, self.rng)
+        return [self._perform(wanted, beat_s, after_s + late_s, tempo)]
+
+    def lead_s(self, label: str) -> float:
+        """How long before a beat the right arm may have to be told.
+
+        Raises:
+            KeyError: no gesture has this label.
+        """
+        timing = self.timing
+        early_s = 4.0 * timing.offset_spread_s - timing.offset_s
+        return LEAD_S + (timing.held_lead_s if _is_held(gesture(label)) else max(0.0, early_s))
 
     def words(self, now_s: float) -> str:
         """What both arms do, or will do and when."""
@@ -157,6 +227,23 @@ class OperatorPlan:
         if wait_s > SAID_AHEAD_S:
             return f"In {wait_s:.0f} s, when both arms are free: {self.right}"
         return f"Left arm {self.left}; right arm {self.right}"
+
+    def _perform(self, wanted: Gesture, activation_s: float, after_s: float, tempo: Tempo) -> Order:
+        """The right arm's part, and what will be known of it."""
+        timing, right_s = self.timing, activation_s + after_s
+        command: dict[str, object] = {"do": "perform", "label": wanted.label, "at_s": right_s}
+        self._right_begins_s = right_s
+        self._home_before_s = self._right_home_s
+        self._right_is_turned = wanted.kind is Kind.POSTURE and tempo.until_s is None
+        if tempo.until_s is not None:
+            hold_s = max(0.0, tempo.until_s - after_s - timing.duration_s(wanted))
+            command |= {"hold_s": hold_s, "back_s": tempo.back_s}
+            ended_s = right_s + timing.duration_s(wanted) + hold_s
+            self._right_home_s = ended_s + tempo.back_s + QUIET_S
+        elif not self._right_is_turned:
+            self._right_home_s = right_s + timing.home_after_s
+        self.right = f"{wanted.label}, {wanted.words}"
+        return Order(Side.RIGHT, command)
 
     def _forget_unbegun(self, now_s: float) -> None:
         """A gesture that is replaced before it begins keeps nobody from home."""
@@ -169,8 +256,12 @@ class OperatorPlan:
 
     def _lower_left(self, now_s: float) -> list[Order]:
         if self._is_left_up(now_s):
-            down_s = now_s + self.timing.left_turn_s * LEFT_DOWN_FACTOR
-            self._left_seen_down_s = down_s + STOP_HELD_S
+            self._left_down_s = now_s + self.timing.left_turn_s * LEFT_DOWN_FACTOR
         self.left = "lowered: stop"
         self._left_up_s = None
         return [Order(Side.LEFT, {"do": "take", "posture": ArmPosture.STOP.value})]
+
+
+def _is_held(wanted: Gesture) -> bool:
+    """Whether the gesture is there before the activation."""
+    return wanted.kind is Kind.POSTURE and wanted.axis != 2

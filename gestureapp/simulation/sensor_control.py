@@ -1,6 +1,7 @@
 """The control language of the sensor emulator: one JSON object in, one out. Pure.
 
-    {"do":"perform","label":"X+","at_s":T}      right arm; at_s is monotonic time, now if left out
+    {"do":"perform","label":"X+","at_s":T}      right arm; at_s is monotonic time, now if left out;
+                 "hold_s":H, "back_s":B         also: hold the end so long, go back in that time
     {"do":"rest","at_s":T}                      right arm returns to rest; left arm to stop
     {"do":"take","posture":"start"|"stop","at_s":T}                      left arm
     {"do":"fault","kind":"none"|"silent"|"frozen"|"garbage"|"truncated"|"spike"|"slow"|"unplugged"
@@ -35,6 +36,9 @@ Answer = dict[str, object]
 
 AHEAD_MAX_S = 60.0
 """An action is scheduled this far ahead at most; more is taken for a mistaken clock."""
+
+BACK_MIN_S = 0.2
+"""No hand is back sooner."""
 
 RATE_MAX_HZ = 2000.0
 
@@ -116,7 +120,9 @@ def _perform(model: SensorModel, command: Mapping[str, object], now_s: float, _:
     label = _word(command, "label")
     if label not in LABELS:
         raise _CommandError(f"no gesture {label!r}: one of {', '.join(LABELS)}")
-    return _schedule(model, ArmAction(Verb.PERFORM, label), command, now_s)
+    hold_s = _number(command, "hold_s", None, 0.0, AHEAD_MAX_S)
+    back_s = _number(command, "back_s", None, BACK_MIN_S, AHEAD_MAX_S)
+    return _schedule(model, ArmAction(Verb.PERFORM, label, hold_s, back_s), command, now_s)
 
 
 def _rest(model: SensorModel, command: Mapping[str, object], now_s: float, _: object) -> Answer:

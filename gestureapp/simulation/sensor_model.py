@@ -41,10 +41,19 @@ class Verb(Enum):
 
 @dataclass(frozen=True, slots=True)
 class ArmAction:
-    """One thing an arm does. ``what`` is a gesture's label or a posture's name; empty for rest."""
+    """One thing an arm does.
+
+    Attributes:
+        verb: What.
+        what: A gesture's label or a posture's name; empty for rest.
+        hold_s: How long the end of a gesture is held; None is as usual.
+        back_s: Duration of the way back from it; None is as usual.
+    """
 
     verb: Verb
     what: str = ""
+    hold_s: float | None = None
+    back_s: float | None = None
 
 
 class Wearer(Protocol):

@@ -44,7 +44,7 @@ class RightWearer:
     def begin(self, action: ArmAction, t_s: float) -> None:
         """Perform a gesture; anything else means rest."""
         if action.verb is Verb.PERFORM:
-            self._arm.perform(action.what, t_s)
+            self._arm.perform(action.what, t_s, action.hold_s, action.back_s)
         else:
             self._arm.rest(t_s)
 

@@ -139,6 +139,18 @@ def test_a_posture_is_held_until_rest_is_asked_for():
     assert arm.is_at_rest(62.0)
 
 
+@pytest.mark.parametrize("label", ["X+", "RX-", "RZ+"])
+def test_a_hand_that_repeats_a_gesture_holds_it_and_is_back_in_the_time_given(label):
+    arm = RightArm(ideal_person(), 0)
+    arm.perform(label, 1.0, hold_s=0.5, back_s=0.6)
+    end_s = 1.0 + (0.4 if label != "RX-" else ideal_person().turn_s)
+
+    _, held = reading(arm, end_s, end_s + 0.5)
+    assert np.abs(np.diff(held, axis=0)).max() < 1e-9
+    assert not arm.is_at_rest(end_s + 0.8)
+    assert arm.is_at_rest(end_s + 1.1 + 0.01)
+
+
 def test_a_movement_after_a_turn_about_z_reads_as_without_it():
     plain, turned = RightArm(ideal_person(), 0), RightArm(ideal_person(), 0)
     turned.perform("RZ+", 0.0)

@@ -26,6 +26,9 @@ TIMING = Timing(
     held_lead_s=0.5,
     offset_s=-0.03,
     offset_spread_s=0.0,
+    movement_s=0.4,
+    turn_s=0.3,
+    yaw_s=0.35,
 )
 HELD = ("RX+", "RX-", "RY+", "RY-")
 MOVING = tuple(label for label in LABELS if label not in HELD)

@@ -40,6 +40,12 @@ def test_a_gesture_begins_now_or_at_the_time_asked_for():
     assert model.scheduled_s == 100.5
 
 
+def test_how_long_a_gesture_is_held_and_how_quickly_it_ends_reaches_the_arm():
+    model = model_of(Side.RIGHT)
+    assert ask(model, {"do": "perform", "label": "RX+", "hold_s": 1.5, "back_s": 0.6})["ok"]
+    assert model.wearer.begun == [(ArmAction(Verb.PERFORM, "RX+", 1.5, 0.6), 100.0)]
+
+
 def test_a_time_that_has_passed_means_now():
     answer = ask(model_of(Side.LEFT), {"do": "take", "posture": "start", "at_s": 3})
     assert answer == {"ok": True, "at_s": 100.0}
@@ -65,6 +71,8 @@ def test_rest_lowers_the_left_arm_and_levels_the_right():
         (Side.RIGHT, {"do": "dance"}, "unknown word 'dance'"),
         (Side.RIGHT, {"do": "perform"}, "'label' is missing"),
         (Side.RIGHT, {"do": "perform", "label": "Q"}, "no gesture 'Q'"),
+        (Side.RIGHT, {"do": "perform", "label": "X+", "back_s": 0.0}, "'back_s' = 0.0 is not"),
+        (Side.RIGHT, {"do": "perform", "label": "X+", "hold_s": -1}, "'hold_s' = -1 is not"),
         (Side.LEFT, {"do": "perform", "label": "X+"}, "belong to the right arm"),
         (Side.RIGHT, {"do": "take", "posture": "start"}, "belong to the left arm"),
         (Side.LEFT, {"do": "take", "posture": "neither"}, "no posture 'neither'"),

@@ -25,6 +25,7 @@ from gestureapp.recognition.values import Candidate, Recognition
 from gestureapp.robot.values import Direction, Pose, PoseIncrement, RobotStatus
 from gestureapp.sensing.store import SampleStore
 from gestureapp.sensing.values import ArmPosture, LinkState, Sample, Side, StreamHealth
+from gestureapp.simulation.prompts import Prompt
 from ui.main_window import MainWindow
 
 NOW_S = 1000.0
@@ -244,6 +245,9 @@ class FakeOperator:
 
     def right_rest(self) -> None:
         self.done.append("right_rest")
+
+    def follow(self, prompt: Prompt) -> None:
+        self.done.append(f"follow {prompt.label or 'nothing'}")
 
     def silence_left(self) -> None:
         self.done.append("silence_left")

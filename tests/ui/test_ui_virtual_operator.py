@@ -1,13 +1,19 @@
 """The virtual operator: each button and each key moves the arms as it says."""
 
+from dataclasses import replace
+
+import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QKeySequence, QShortcut
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QLabel, QPushButton, QWidget
 
 from gestureapp.gestures import LABELS
+from gestureapp.guided.values import GuidedSnapshot, Pace, Phase, Trying
+from gestureapp.simulation.prompts import NOTHING, Prompt
 from ui.main_window import MainWindow
-from ui.virtual_operator import GESTURE_KEYS, HOW
+from ui.prompts import prompt_of
+from ui.virtual_operator import GESTURE_KEYS, HOW, VirtualOperatorPanel
 
 BUTTONS = {
     "leftStart": "left_start",
@@ -57,7 +63,8 @@ def test_keys_do_what_the_buttons_do(qtbot, window, operator):
 def test_no_key_is_taken_twice_and_none_of_the_reserved_ones(window):
     taken = [shortcut.key() for shortcut in window.findChildren(QShortcut)]
     words = [key.toString() for key in taken]
-    assert len(words) == len(set(words)) == len(BUTTONS)
+    assert len(words) == len(set(words)) == len(BUTTONS) + 1
+    assert "T" in words
     reserved = {QKeySequence(key).toString() for key in ("Esc", "Pause", "Space", "Return")}
     assert reserved.isdisjoint(words)
 
@@ -71,6 +78,56 @@ def test_the_panel_says_how_a_gesture_is_made_and_what_the_arms_do(qtbot, window
     operator.left_start()
     window.poll()
     assert window.findChild(QLabel, "virtualOperatorDoing").text() == "last asked: left_start"
+
+
+@pytest.fixture
+def panel(qtbot, operator) -> VirtualOperatorPanel:
+    panel = VirtualOperatorPanel(operator)
+    qtbot.addWidget(panel)
+    return panel
+
+
+def press(panel: VirtualOperatorPanel, name: str) -> None:
+    panel.findChild(QPushButton, name).click()
+
+
+ASKING = GuidedSnapshot(phase=Phase.WAITING, label="RZ+")
+
+
+def test_the_arms_follow_the_prompts_only_while_the_button_is_down(panel, operator):
+    panel.refresh(ASKING)
+    assert operator.done == []
+    press(panel, "followPrompts")
+    panel.refresh(ASKING)
+    panel.refresh(None)
+    press(panel, "followPrompts")
+    panel.refresh(ASKING)
+    assert operator.done == ["follow RZ+", "follow nothing", "follow nothing"]
+
+
+def test_moving_an_arm_by_hand_ends_the_following(panel, operator):
+    press(panel, "followPrompts")
+    press(panel, "leftStop")
+    assert not panel.is_following
+    assert operator.done == ["follow nothing", "left_stop"]
+
+
+def test_a_sensor_that_falls_silent_ends_no_following(panel):
+    press(panel, "followPrompts")
+    press(panel, "silenceLeft")
+    press(panel, "restoreSensors")
+    assert panel.is_following
+
+
+def test_a_person_is_asked_for_what_the_screen_shows():
+    assert prompt_of(ASKING) == Prompt("RZ+", True)
+    assert prompt_of(replace(ASKING, phase=Phase.TAKING)) == Prompt("RZ+")
+    beat = replace(ASKING, pace=Pace.RHYTHM, next_beat_s=9.0, beat_s=2.0, phase=Phase.COUNT_IN)
+    assert prompt_of(beat) == Prompt("RZ+", False, 9.0, 2.0)
+    for phase in (Phase.CLOSED, Phase.IDLE, Phase.PAUSED, Phase.SENSOR_LOST):
+        assert prompt_of(replace(ASKING, phase=phase)) == NOTHING
+    trying = Trying(is_on=True, asked="Y-", n_done=4)
+    assert prompt_of(GuidedSnapshot(trying=trying)) == Prompt("Y-", True, number=4, is_trial=True)
 
 
 def test_there_is_no_panel_without_a_virtual_operator(qtbot, cell):
