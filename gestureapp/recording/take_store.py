@@ -1,47 +1,27 @@
-"""Everybody's takes: one SQLite database a person, in which every change is a transaction.
+"""One person's takes in a database in which every change is a transaction.
 
-A take is on the disk whole before anybody is told of it: the journal is synchronised at every
-commit, and a process that is killed at any moment leaves the database as it was after the last
-one. The database is locked while it is open; a second application is refused in words.
+A take is on the disk whole before anybody is told of it.
 
 Every change of a take (its addition, exclusion, move, deletion) is one row of a journal that says
 how the take was before and after, so that undo and redo outlive the application. An addition that
 is undone, and a deletion, put the take into the bin; nothing is ever erased.
 """
 
-import sqlite3
-from collections.abc import Iterator
-from contextlib import contextmanager
+from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Final
 
 import numpy as np
+from numpy.typing import NDArray
 
-from gestureapp.errors import DiskFull, RecordingError, RecordingInvalid
+from gestureapp.errors import RecordingInvalid
+from gestureapp.recognition.takes import TakeSet
 from gestureapp.recording.people import TAKES_FILE, clean_name, make_person_folder
+from gestureapp.recording.take_database import TakeDatabase, Value
 from gestureapp.recording.take_values import F64, Judgement, Take, Verdict
 
-APPLICATION_ID: Final = 0x47545331
-"""Marks our databases in their header: ``GTS1``."""
-SCHEMA: Final = 1
-BUSY_WAIT_S: Final = 0.3
-"""A process that is just ending lets go of its lock by then."""
-
-_TABLES: Final = (
-    "CREATE TABLE person (name TEXT NOT NULL)",
-    """CREATE TABLE take (
-        id INTEGER PRIMARY KEY,
-        label TEXT NOT NULL, is_excluded INTEGER NOT NULL, is_deleted INTEGER NOT NULL,
-        session TEXT NOT NULL, wall_s REAL NOT NULL, verdict TEXT NOT NULL, words TEXT NOT NULL,
-        times_s BLOB NOT NULL, accel_g BLOB NOT NULL)""",
-    """CREATE TABLE change (
-        id INTEGER PRIMARY KEY, take_id INTEGER NOT NULL, words TEXT NOT NULL,
-        old_label TEXT NOT NULL, old_excluded INTEGER NOT NULL, old_deleted INTEGER NOT NULL,
-        new_label TEXT NOT NULL, new_excluded INTEGER NOT NULL, new_deleted INTEGER NOT NULL,
-        is_undone INTEGER NOT NULL)""",
-)
-"""``times_s`` float64 (k), ``accel_g`` float32 (k, 3), both little-endian."""
+State = tuple[str, bool, bool]
+"""What of a take can change: its label, is_excluded, is_deleted."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -63,8 +43,8 @@ class _Change:
     id: int
     words: str
     take_id: int
-    old: tuple[str, bool, bool]
-    new: tuple[str, bool, bool]
+    old: State
+    new: State
 
 
 class TakeStore:
@@ -75,11 +55,10 @@ class TakeStore:
         person: Whose takes; a new name begins a new database.
 
     Raises:
-        RecordingInvalid: the database is damaged (it is kept aside), foreign, or from a newer
-            version (both left where they are).
+        RecordingInvalid: the database is damaged; it is kept aside under another name.
         DiskFull: no room is left there.
-        RecordingError: the name cannot be used, the folder cannot be written to, or another
-            application has the database open.
+        RecordingError: the name cannot be used, the folder cannot be written to, the database is
+            foreign or from a newer version, or another application has it open.
 
     Attributes:
         person: The name as it is kept.
@@ -92,13 +71,11 @@ class TakeStore:
         self._takes: dict[int, Take] = {}
         self._undoable: list[_Change] = []
         self._undone: list[_Change] = []
-        with self._in_words():
-            self._db = sqlite3.connect(self.path, timeout=BUSY_WAIT_S, isolation_level=None)
+        self._db = TakeDatabase(self.path, self.person)
         try:
-            self._open()
+            self._load()
         except RecordingInvalid as error:
-            self._db.close()
-            raise self._set_aside(error) from error
+            raise self._db.set_aside(error) from error
         except BaseException:
             self._db.close()
             raise
@@ -131,15 +108,13 @@ class TakeStore:
         times_s = np.ascontiguousarray(new.times_s, dtype="<f8")
         accel_g = np.ascontiguousarray(new.accel_g, dtype="<f4")
         words, judgement = f"take {self._n_of(new.label) + 1} of {new.label}", new.judgement
-        with self._transaction():
+        with self._db.transaction():
             row = (new.label, new.session, new.wall_s, judgement.verdict.value, judgement.words)
-            take_id = self._db.execute(
+            take_id = self._db.write(
                 "INSERT INTO take (is_excluded, is_deleted, label, session, wall_s, verdict, words,"
                 " times_s, accel_g) VALUES (0, 0, ?, ?, ?, ?, ?, ?, ?)",
                 (*row, times_s.tobytes(), accel_g.tobytes()),
-            ).lastrowid
-            if take_id is None:
-                raise RecordingError(self.path, "the take got no number; start the batch again")
+            )
             there = (new.label, False, False)
             change = self._note(take_id, words, (new.label, False, True), there)
         take = Take(
@@ -222,41 +197,39 @@ class TakeStore:
         if new == old:
             return
         words = f"{what} of take {self._number_of(take)} of {take.label}"
-        with self._transaction():
+        with self._db.transaction():
             change = self._note(take_id, words, old, new)
             self._write_state(take_id, new)
         self._set_state(take_id, new)
         self._done(change)
 
-    def _put(self, change: _Change, state: tuple[str, bool, bool], *, is_undone: bool) -> None:
-        with self._transaction():
+    def _put(self, change: _Change, state: State, *, is_undone: bool) -> None:
+        with self._db.transaction():
             self._write_state(change.take_id, state)
-            self._db.execute("UPDATE change SET is_undone = ? WHERE id = ?", (is_undone, change.id))
+            self._db.write("UPDATE change SET is_undone = ? WHERE id = ?", (is_undone, change.id))
         self._set_state(change.take_id, state)
 
-    def _note(
-        self, take_id: int, words: str, old: tuple[str, bool, bool], new: tuple[str, bool, bool]
-    ) -> _Change:
+    def _note(self, take_id: int, words: str, old: State, new: State) -> _Change:
         """Write a change into the journal; what was undone cannot be done again any more."""
-        self._db.execute("DELETE FROM change WHERE is_undone")
-        change_id = self._db.execute(
+        self._db.write("DELETE FROM change WHERE is_undone")
+        change_id = self._db.write(
             "INSERT INTO change (take_id, words, old_label, old_excluded, old_deleted,"
             " new_label, new_excluded, new_deleted, is_undone) VALUES (?, ?, ?, ?, ?, ?, ?, ?, 0)",
             (take_id, words, *old, *new),
-        ).lastrowid
-        return _Change(change_id or 0, words, take_id, old, new)
+        )
+        return _Change(change_id, words, take_id, old, new)
 
     def _done(self, change: _Change) -> None:
         self._undoable.append(change)
         self._undone.clear()
 
-    def _write_state(self, take_id: int, state: tuple[str, bool, bool]) -> None:
-        self._db.execute(
+    def _write_state(self, take_id: int, state: State) -> None:
+        self._db.write(
             "UPDATE take SET label = ?, is_excluded = ?, is_deleted = ? WHERE id = ?",
             (*state, take_id),
         )
 
-    def _set_state(self, take_id: int, state: tuple[str, bool, bool]) -> None:
+    def _set_state(self, take_id: int, state: State) -> None:
         label, is_excluded, is_deleted = state
         self._takes[take_id] = replace(
             self._takes[take_id], label=label, is_excluded=is_excluded, is_deleted=is_deleted
@@ -270,111 +243,30 @@ class TakeStore:
         before = (t for t in self._takes.values() if t.label == take.label and t.id < take.id)
         return 1 + sum(1 for t in before if not t.is_deleted)
 
-    # The file.
-
-    def _open(self) -> None:
-        with self._in_words():
-            self._db.execute("PRAGMA locking_mode = EXCLUSIVE").fetchall()
-            self._db.execute("PRAGMA synchronous = FULL")
-        with self._transaction():
-            version = self._number("PRAGMA user_version")
-            is_new = not version and not self._number("SELECT count(*) FROM sqlite_master")
-            if is_new:
-                self._create()
-        if not is_new:
-            self._check(version)
-        with self._in_words():
-            self._db.execute("PRAGMA journal_mode = TRUNCATE").fetchall()
-            self._load()
-
-    def _create(self) -> None:
-        for table in _TABLES:
-            self._db.execute(table)
-        self._db.execute("INSERT INTO person VALUES (?)", (self.person,))
-        self._db.execute(f"PRAGMA application_id = {APPLICATION_ID}")
-        self._db.execute(f"PRAGMA user_version = {SCHEMA}")
-
-    def _check(self, version: int) -> None:
-        with self._in_words():
-            if self._number("PRAGMA application_id") != APPLICATION_ID:
-                raise RecordingError(self.path, "is no database of takes; move it elsewhere")
-            if version > SCHEMA:
-                reason = f"is from a newer version (schema {version}, this one reads {SCHEMA})"
-                raise RecordingError(self.path, f"{reason}; update the application")
-            found = self._db.execute("PRAGMA quick_check(1)").fetchone()
-            if found is None or found[0] != "ok":
-                cause = str(found[0] if found else "no answer").splitlines()[0]
-                raise RecordingInvalid(self.path, cause)
-            names = [str(row[0]) for row in self._db.execute("SELECT name FROM person")]
-        if names != [self.person]:
-            reason = f"has the takes of {', '.join(names) or 'nobody'}, not of {self.person}"
-            raise RecordingError(self.path, f"{reason}; move it back to where it was")
-
     def _load(self) -> None:
-        for row in self._db.execute(
+        takes = self._db.rows(
             "SELECT id, label, session, wall_s, verdict, words, is_excluded, is_deleted,"
             " times_s, accel_g FROM take ORDER BY id"
-        ):
+        )
+        for row in takes:
             try:
                 take = _take_of(row)
             except (ValueError, TypeError) as error:
-                raise RecordingInvalid(self.path, f"take {row[0]}: {error}") from error
+                raise RecordingInvalid(self.path, f"take {row[0]!r}: {error}") from error
             self._takes[take.id] = take
-        for row in self._db.execute(
+        changes = self._db.rows(
             "SELECT is_undone, id, words, take_id, old_label, old_excluded, old_deleted,"
             " new_label, new_excluded, new_deleted FROM change ORDER BY id"
-        ):
-            old = (str(row[4]), bool(row[5]), bool(row[6]))
-            new = (str(row[7]), bool(row[8]), bool(row[9]))
-            if row[3] not in self._takes:
-                raise RecordingInvalid(self.path, f"change {row[1]} is of an unknown take")
-            change = _Change(row[1], str(row[2]), row[3], old, new)
-            (self._undone if row[0] else self._undoable).append(change)
+        )
+        for is_undone, *rest in changes:
+            change = _change_of(rest)
+            if change.take_id not in self._takes:
+                raise RecordingInvalid(self.path, f"change {change.id} is of an unknown take")
+            (self._undone if is_undone else self._undoable).append(change)
         self._undone.reverse()
 
-    def _set_aside(self, error: RecordingInvalid) -> RecordingInvalid:
-        """Keep a damaged database under another name; the error that says so."""
-        cause = str(error).removeprefix(f"{self.path}: ")
-        number = 1
-        while (aside := self.path.with_name(f"takes.damaged-{number}.sqlite")).exists():
-            number += 1
-        journal = self.path.with_name(f"{self.path.name}-journal")
-        try:
-            if journal.exists():
-                journal.rename(aside.with_name(f"{aside.name}-journal"))
-            self.path.rename(aside)
-        except OSError as failed:
-            reason = f"is damaged ({cause}) and cannot be renamed: {failed.strerror or failed}"
-            return RecordingInvalid(self.path, f"{reason}; move it elsewhere")
-        reason = f"is damaged ({cause}); kept as {aside.name}; put a copy back in its place"
-        return RecordingInvalid(self.path, f"{reason}, or choose the person again to begin anew")
 
-    def _number(self, query: str) -> int:
-        return int(self._db.execute(query).fetchone()[0])
-
-    @contextmanager
-    def _transaction(self) -> Iterator[None]:
-        """All or nothing; on the disk at the end."""
-        with self._in_words():
-            self._db.execute("BEGIN EXCLUSIVE")
-            try:
-                yield
-                self._db.execute("COMMIT")
-            except BaseException:
-                if self._db.in_transaction:
-                    self._db.execute("ROLLBACK")
-                raise
-
-    @contextmanager
-    def _in_words(self) -> Iterator[None]:
-        """Translate what SQLite raises."""
-        try:
-            yield
-        except sqlite3.Error as error:
-            raise _error_of(self.path, error) from error
-
-
-def _take_of(row: tuple[object, ...]) -> Take:
+def _take_of(row: tuple[Value, ...]) -> Take:
     """A row as a take.
 
     Raises:
@@ -405,26 +297,35 @@ def _take_of(row: tuple[object, ...]) -> Take:
     )
 
 
-def _frozen(array: "np.typing.NDArray[np.floating]") -> F64:
+def _change_of(row: list[Value]) -> _Change:
+    change_id, words, take_id, *states = row
+    old = (str(states[0]), bool(states[1]), bool(states[2]))
+    new = (str(states[3]), bool(states[4]), bool(states[5]))
+    return _Change(int(change_id), str(words), int(take_id), old, new)
+
+
+def _frozen(array: NDArray[np.floating]) -> F64:
     values = array.astype(np.float64)
     values.setflags(write=False)
     return values
 
 
-def _error_of(path: Path, error: sqlite3.Error) -> RecordingError:
-    """What SQLite met, as ours: the code without its details is in the low byte."""
-    code = getattr(error, "sqlite_errorcode", sqlite3.SQLITE_ERROR) & 0xFF
-    match code:
-        case sqlite3.SQLITE_FULL:
-            return DiskFull(path, "no room is left on the disk; free some and go on")
-        case sqlite3.SQLITE_BUSY | sqlite3.SQLITE_LOCKED:
-            return RecordingError(path, "is in use by another gestureapp; close that one")
-        case sqlite3.SQLITE_CORRUPT | sqlite3.SQLITE_NOTADB | sqlite3.SQLITE_ERROR:
-            return RecordingInvalid(path, str(error))
-        case sqlite3.SQLITE_READONLY | sqlite3.SQLITE_CANTOPEN | sqlite3.SQLITE_PERM:
-            reason = f"cannot be written: {error}; check the folder's permissions"
-            return RecordingError(path, reason)
-        case sqlite3.SQLITE_IOERR:
-            return RecordingError(path, f"the disk fails: {error}; check it, or use another")
-        case _:
-            return RecordingError(path, f"cannot be used: {error}; start the application again")
+def to_take_set(takes: Iterable[Take], person: str, rate_hz: float = 100.0) -> TakeSet:
+    """The takes that count, as recognisers are trained from them.
+
+    Args:
+        takes: A person's, in any state.
+        person: Whose they are.
+        rate_hz: At which the sensor sends.
+    """
+    counting = [take for take in takes if take.counts]
+    return TakeSet(
+        samples=np.concatenate([np.zeros((0, 3)), *(take.accel_g for take in counting)]),
+        offsets=np.cumsum([0, *(len(take.times_s) for take in counting)]),
+        labels=tuple(take.label for take in counting),
+        activation=np.array([np.searchsorted(t.times_s, 0.0) for t in counting], dtype=np.int64),
+        user=(person,) * len(counting),
+        session=tuple(take.session for take in counting),
+        rate_hz=rate_hz,
+        source=Path(f"the takes of {person}"),
+    )
