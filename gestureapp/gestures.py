@@ -61,3 +61,15 @@ def gesture(label: str) -> Gesture:
         KeyError: no gesture has this label.
     """
     return _BY_LABEL[label]
+
+
+def is_held(label: str) -> bool:
+    """Whether gravity shows the gesture, so that it is held when the activation comes: RX and RY.
+
+    A turn about Z leaves the reading as it is; it shows while it is made, as movements do.
+
+    Raises:
+        KeyError: no gesture has this label.
+    """
+    wanted = gesture(label)
+    return wanted.kind is Kind.POSTURE and wanted.axis != 2

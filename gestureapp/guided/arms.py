@@ -10,6 +10,7 @@ from typing import Final, Protocol
 import numpy as np
 
 from gestureapp.config import Settings
+from gestureapp.guided.motion import tilt_of
 from gestureapp.recording.take_values import AFTER_S, BEFORE_S, F64
 from gestureapp.sensing.posture import PostureDetector
 from gestureapp.sensing.store import SampleStore
@@ -137,12 +138,6 @@ class Arms:
     def _read(self, side: Side, store: SampleStore) -> F64:
         rows, self._counts[side] = store.since(self._counts[side])
         return rows
-
-
-def tilt_of(accel_g: F64) -> float:
-    """The angle between the mean of these readings, shape (k, 3), and straight up, in degrees."""
-    x, y, z = accel_g.mean(axis=0).tolist()
-    return math.degrees(math.atan2(math.hypot(x, y), z))
 
 
 class _Presence:

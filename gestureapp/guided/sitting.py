@@ -4,7 +4,7 @@ Owned by the guided thread; knows its clock only as an argument. Everything that
 disk ends in ``trouble``, a line for the person, and a pause; what was taken before stays.
 """
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from dataclasses import dataclass
 from datetime import UTC, datetime
 from pathlib import Path
@@ -14,8 +14,8 @@ from gestureapp.errors import RecordingError
 from gestureapp.guided import order
 from gestureapp.guided.arms import Arms
 from gestureapp.guided.batch import Batch
-from gestureapp.guided.quality import quality_of
-from gestureapp.guided.values import GestureProgress, Pace, Phase, Quality
+from gestureapp.guided.likeness import Likeness
+from gestureapp.guided.values import GestureProgress, Pace, Phase
 from gestureapp.guided.verdict import judge
 from gestureapp.guided.words import batch_sentence, idle_sentence
 from gestureapp.recording.take_store import NewTake, TakeStore
@@ -71,7 +71,7 @@ class Sitting:
         self._session = _session_of(self._store.takes(), wall_s)
         self._batch_ids: list[int] = []
         self._batch_label = ""
-        self._qualities: Mapping[str, Quality] = {}
+        self._likeness = Likeness()
         self._good: dict[str, int] = {}
         self.batch: Batch | None = None
         self.trouble = ""
@@ -220,7 +220,7 @@ class Sitting:
 
     def _keep(self, activation_s: float, wall_s: float) -> None:
         times_s, accel_g = self._arms.cut(activation_s)
-        judgement = judge(self.label, times_s, accel_g, self.takes())
+        judgement = judge(self.label, times_s, accel_g, self.takes(), self._likeness)
         new = NewTake(self.label, self._session, wall_s, judgement, times_s, accel_g)
         try:
             take = self._store.add(new)
@@ -252,8 +252,8 @@ class Sitting:
     def _count(self) -> None:
         takes = self.takes()
         self._good = order.count_good(takes)
-        self._qualities = quality_of(takes)
-        self.progress = order.progress(self._good, self._plan.wanted, self._qualities)
+        qualities = self._likeness.qualities(takes)
+        self.progress = order.progress(self._good, self._plan.wanted, qualities)
         self.suggested = order.suggest(self._good, self._plan.wanted)
 
 

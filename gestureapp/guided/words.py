@@ -1,6 +1,6 @@
 """What guided recording says to the person, one sentence for every moment. Pure."""
 
-from gestureapp.gestures import Kind, gesture
+from gestureapp.gestures import gesture, is_held
 from gestureapp.guided.batch import Batch
 from gestureapp.guided.values import Pace, Phase
 
@@ -48,12 +48,6 @@ def _hands_free(label: str) -> str:
     if is_held(label):
         return f"{words.capitalize()}; then raise the left arm."
     return f"{words.capitalize()} as you raise the left arm."
-
-
-def is_held(label: str) -> bool:
-    """Whether gravity shows the gesture, so that it is held when the activation comes."""
-    wanted = gesture(label)
-    return wanted.kind is Kind.POSTURE and wanted.axis != 2
 
 
 def _kept(n_good: int) -> str:

@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gestureapp.config import SiteSettings
-from gestureapp.gestures import Gesture, Kind, gesture
+from gestureapp.gestures import Gesture, Kind, gesture, is_held
 from gestureapp.sensing.posture import PostureDetector
 from gestureapp.sensing.values import ArmPosture
 from gestureapp.simulation.motion import (
@@ -105,7 +105,7 @@ class RightArm:
             KeyError: no gesture has this label.
         """
         person = self.person
-        if _is_held(gesture(label)):
+        if is_held(label):
             start_s = activation_s - self.lead_s(label)
         else:
             start_s = activation_s + self._rng.normal(person.offset_s, person.offset_spread_s)
@@ -121,7 +121,7 @@ class RightArm:
             KeyError: no gesture has this label.
         """
         person = self.person
-        if _is_held(gesture(label)):
+        if is_held(label):
             return person.turn_s * (1.0 + 3.0 * person.variation) + POSTURE_SETTLED_S
         return max(0.0, 4.0 * person.offset_spread_s - person.offset_s)
 
@@ -306,11 +306,6 @@ def _first_start(readings: F64) -> int:
         if detector.feed((x, y, z)) is ArmPosture.START:
             return number
     return len(readings) - 1
-
-
-def _is_held(wanted: Gesture) -> bool:
-    """Whether gravity shows the gesture, so that it is held before the activation."""
-    return wanted.kind is Kind.POSTURE and wanted.axis != 2
 
 
 def _left_worn(person: Person, rng: np.random.Generator) -> WornSensor:
