@@ -1,8 +1,8 @@
 """Sets of takes, and their exchange file.
 
 One NPZ: ``samples`` float (n, 3) in g, ``offsets`` int (m+1), ``labels`` str (m), ``activation``
-int (m, sample index inside the take, 0 if absent), optional ``user`` and ``session`` (m),
-``rate_hz``.
+int (m, sample index inside the take, 0 if absent), optional ``user``, ``session`` and
+``repetition`` (m), ``rate_hz``. Takes of other makers: see ``marked_takes``.
 """
 
 import hashlib
@@ -18,9 +18,12 @@ from numpy.typing import NDArray
 
 from gestureapp.errors import RecordingInvalid
 from gestureapp.recognition.files import write_atomically
+from gestureapp.recognition.marked_takes import put_right
 
 F64 = NDArray[np.float64]
 I64 = NDArray[np.int64]
+
+_PER_TAKE = ("user", "session", "repetition")
 
 _UNREADABLE = (OSError, ValueError, EOFError, KeyError, MemoryError, NotImplementedError)
 """What numpy and zipfile raise on a file that is no NPZ or a damaged one (BadZipFile and zlib.error
@@ -39,8 +42,10 @@ class TakeSet:
             (m,).
         user: Who did it, for each take; empty when unknown.
         session: In which session, for each take; empty when unknown.
+        repetition: Which repetition of its gesture each take is; empty when unknown.
         rate_hz: Sample rate; None when unknown.
         source: The file it is from, for messages.
+        remarks: What was put right while it was read, in words.
     """
 
     samples: F64
@@ -49,8 +54,10 @@ class TakeSet:
     activation: I64
     user: tuple[str, ...] = ()
     session: tuple[str, ...] = ()
+    repetition: tuple[str, ...] = ()
     rate_hz: float | None = None
     source: Path = Path("takes")
+    remarks: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
         for name, dtype in (("samples", float), ("offsets", np.int64), ("activation", np.int64)):
@@ -77,8 +84,9 @@ class TakeSet:
             offsets=np.cumsum([0, *(len(part) for part in parts)]),
             labels=tuple(self.labels[i] for i in indices),
             activation=self.activation[list(indices)],
-            user=tuple(self.user[i] for i in indices) if self.user else (),
-            session=tuple(self.session[i] for i in indices) if self.session else (),
+            user=_chosen(self.user, indices),
+            session=_chosen(self.session, indices),
+            repetition=_chosen(self.repetition, indices),
         )
 
     def fingerprint(self) -> str:
@@ -105,21 +113,7 @@ def load_takes(path: Path) -> TakeSet:
         if name not in arrays:
             raise RecordingInvalid(path, f"the array '{name}' is missing; this is no file of takes")
     try:
-        labels = _texts("labels", arrays["labels"])
-        return TakeSet(
-            samples=_numbers("samples", arrays["samples"]),
-            offsets=_whole_numbers("offsets", arrays["offsets"]),
-            labels=labels,
-            activation=(
-                _whole_numbers("activation", arrays["activation"])
-                if "activation" in arrays
-                else np.zeros(len(labels), dtype=np.int64)
-            ),
-            user=_texts("user", arrays["user"]) if "user" in arrays else (),
-            session=_texts("session", arrays["session"]) if "session" in arrays else (),
-            rate_hz=_rate(arrays.get("rate_hz")),
-            source=path,
-        )
+        return _take_set(arrays, path)
     except ValueError as error:
         raise RecordingInvalid(path, str(error)) from error
 
@@ -138,13 +132,42 @@ def save_takes(path: Path, takes: TakeSet) -> None:
         "activation": takes.activation,
         "rate_hz": np.array(np.nan if takes.rate_hz is None else takes.rate_hz),
     }
-    if takes.user:
-        arrays["user"] = np.array(takes.user, dtype=np.str_)
-    if takes.session:
-        arrays["session"] = np.array(takes.session, dtype=np.str_)
+    for name in _PER_TAKE:
+        if texts := getattr(takes, name):
+            arrays[name] = np.array(texts, dtype=np.str_)
     buffer = io.BytesIO()
     np.savez_compressed(buffer, allow_pickle=False, **arrays)
     write_atomically(path, buffer.getvalue())
+
+
+def _take_set(arrays: Mapping[str, NDArray[np.generic]], path: Path) -> TakeSet:
+    is_marked = "target_start" in arrays and "activation" not in arrays
+    labels, name = _texts("labels", arrays["labels"]), "target_start" if is_marked else "activation"
+    takes = TakeSet(
+        samples=_numbers("samples", arrays["samples"]),
+        offsets=_whole_numbers("offsets", arrays["offsets"]),
+        labels=labels,
+        activation=_whole_numbers(name, arrays.get(name, np.zeros(len(labels), dtype=np.int64))),
+        user=_known_texts("user", arrays),
+        session=_known_texts("session", arrays),
+        repetition=_known_texts("repetition", arrays),
+        rate_hz=_rate(arrays.get("rate_hz")),
+        source=path,
+    )
+    if not is_marked:
+        return takes
+    turn = arrays.get("R_device_to_paper")
+    samples, remarks = put_right(
+        takes.samples,
+        takes.offsets,
+        takes.activation,
+        None if turn is None else _numbers("R_device_to_paper", turn),
+    )
+    return replace(takes, samples=samples, remarks=remarks)
+
+
+def _chosen(texts: tuple[str, ...], indices: Sequence[int]) -> tuple[str, ...]:
+    return tuple(texts[i] for i in indices) if texts else ()
 
 
 def _read_arrays(path: Path) -> Mapping[str, NDArray[np.generic]]:
@@ -194,6 +217,12 @@ def _texts(name: str, array: NDArray[np.generic]) -> tuple[str, ...]:
     return tuple(str(value) for value in array.tolist())
 
 
+def _known_texts(name: str, arrays: Mapping[str, NDArray[np.generic]]) -> tuple[str, ...]:
+    """One text a take; none at all when the array is missing or holds empty texts only."""
+    texts = _texts(name, arrays[name]) if name in arrays else ()
+    return texts if any(texts) else ()
+
+
 def _rate(array: NDArray[np.generic] | None) -> float | None:
     if array is None:
         return None
@@ -212,7 +241,7 @@ def _find_fault(takes: TakeSet) -> str:
         return (
             f"'offsets' must have one more entry than 'labels' ({n_takes}), found {offsets.shape}"
         )
-    for name in ("activation", "user", "session"):
+    for name in ("activation", *_PER_TAKE):
         length = len(getattr(takes, name))
         if length != n_takes and (name == "activation" or length):
             return f"'{name}' must have one entry a take ({n_takes}), found {length}"

@@ -228,3 +228,51 @@ def test_the_fingerprint_changes_with_a_sample_and_with_a_label():
     }
 
     assert len(prints) == 3
+
+
+def marked(path, **changes):
+    """A file of another maker: three quiet samples, then a push along the device's own Y."""
+    samples = np.zeros((10, 3))
+    samples[[3, 7, 8]] = (0.0, 0.8, 0.0)
+    marks = {"activation": None, "samples": samples, "target_start": np.array([3, 3])}
+    return write(path, **(marks | changes))
+
+
+def test_a_marked_begin_is_taken_for_the_activation_and_gravity_is_given_back(tmp_path):
+    turn = np.array([[0.0, 1.0, 0.0], [-1.0, 0.0, 0.0], [0.0, 0.0, 1.0]])
+
+    takes = load_takes(marked(tmp_path / "t.npz", R_device_to_paper=turn))
+
+    assert takes.activation.tolist() == [3, 3]
+    assert np.allclose(takes.accel_g(0)[:2], [[0.0, 0.0, 1.0]] * 2)
+    assert np.allclose(takes.accel_g(0)[3], [0.8, 0.0, 1.0])
+    assert ["target_start" in takes.remarks[0], len(takes.remarks)] == [True, 3]
+
+
+def test_marked_takes_with_gravity_are_left_as_they_are(tmp_path):
+    path = marked(tmp_path / "t.npz", samples=np.tile([0.0, 0.0, 1.0], (10, 1)))
+
+    takes = load_takes(path)
+
+    assert np.allclose(takes.samples, [0.0, 0.0, 1.0])
+    assert len(takes.remarks) == 1
+
+
+def test_with_an_activation_nothing_is_put_right(tmp_path):
+    takes = load_takes(marked(tmp_path / "t.npz", activation=np.array([1, 1])))
+
+    assert takes.activation.tolist() == [1, 1]
+    assert (takes.remarks, float(np.abs(takes.samples[0]).sum())) == ((), 0.0)
+
+
+@pytest.mark.parametrize(
+    ("changes", "words"),
+    [
+        ({"R_device_to_paper": np.ones((3, 3))}, "must be a rotation"),
+        ({"R_device_to_paper": np.eye(2)}, "must be a rotation"),
+        ({"target_start": np.array([3, 6])}, "'activation' of take 1 is 6"),
+    ],
+)
+def test_marks_that_cannot_be_used_are_refused(tmp_path, changes, words):
+    with pytest.raises(RecordingInvalid, match=words):
+        load_takes(marked(tmp_path / "t.npz", **changes))
