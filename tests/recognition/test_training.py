@@ -1,11 +1,13 @@
 import subprocess
 import sys
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
 from gestureapp.errors import NotEnoughTakes
 from gestureapp.recognition import training
+from gestureapp.recognition.folds import FoldBy
 from gestureapp.recognition.hearing import evaluate
 from gestureapp.recognition.presets import Preset
 from gestureapp.recognition.takes import TakeSet
@@ -32,7 +34,7 @@ def easy_takes(labels=("wave", "X-", "X+"), count=10, seed=0, rate_hz=50.0, leng
 def few_cycles(monkeypatch):
     """The same rules with fewer passes, to keep the suite quick."""
     monkeypatch.setattr(training, "PAPER_CYCLES", 2_000)
-    monkeypatch.setattr(training, "DEFAULT_CYCLES", 300)
+    monkeypatch.setattr(training, "DEFAULT_CYCLES", 400)
 
 
 @pytest.mark.usefixtures("few_cycles")
@@ -92,6 +94,69 @@ def test_the_record_says_what_made_the_model():
     assert model.takes_fingerprint == takes.fingerprint()
 
 
+@pytest.mark.usefixtures("few_cycles")
+@pytest.mark.parametrize("preset", list(Preset))
+def test_no_network_of_the_cross_validation_hears_what_it_was_trained_with(preset):
+    """Labels by chance: whoever has seen a take knows it; whoever has not can only guess."""
+    takes = easy_takes(labels=("a", "b"), count=20, seed=3)
+    guessed = np.random.default_rng(0).permutation(takes.labels)
+    model = train(replace(takes, labels=tuple(guessed.tolist())), preset, seed=1)
+
+    blind = model.cross_validation.evaluation
+    assert blind.n == 40
+    assert blind.recognised < 0.75
+
+
+@pytest.mark.usefixtures("few_cycles")
+@pytest.mark.parametrize("preset", list(Preset))
+def test_changing_a_fold_changes_nothing_in_the_network_that_hears_it(preset, monkeypatch):
+    heard = []
+    monkeypatch.setattr(
+        training, "_cross_validate", lambda _m, _t, _d, networks: heard.append(networks)
+    )
+    takes = easy_takes(labels=("a", "b"), count=10)
+    first_fold = [0, 1, 10, 11]
+    samples = takes.samples.copy()
+    for take in first_fold:
+        samples[8 * take : 8 * take + 8] += 0.5
+
+    train(takes, preset, seed=1)
+    train(replace(takes, samples=samples), preset, seed=1)
+
+    assert np.array_equal(heard[0][0].hidden, heard[1][0].hidden)
+    assert np.array_equal(heard[0][0].output, heard[1][0].output)
+    assert not np.array_equal(heard[0][1].hidden, heard[1][1].hidden)
+
+
+@pytest.mark.usefixtures("few_cycles")
+def test_the_model_is_the_same_with_and_without_a_cross_validation():
+    with_it = train(easy_takes(), Preset.DEFAULT, 1)
+    without = train(easy_takes(), Preset.DEFAULT, 1, is_validated=False)
+
+    assert without.cross_validation is None
+    assert np.allclose(with_it.network.hidden, without.network.hidden, atol=1e-3)
+
+
+@pytest.mark.usefixtures("few_cycles")
+def test_the_figures_say_how_the_takes_were_divided_and_count_every_whole_take():
+    takes = easy_takes(count=8)
+    short = np.concatenate([takes.samples, np.zeros((2, 3))])
+    takes = TakeSet(
+        short,
+        [*takes.offsets, len(short)],
+        (*takes.labels, "X+"),
+        [*takes.activation, 0],
+        session=("monday", "friday") * 12 + ("friday",),
+    )
+
+    model = train(takes, Preset.DEFAULT, 1)
+
+    assert model.cross_validation.folds == "by session: 2 sessions"
+    assert model.cross_validation.evaluation.n == 24
+    assert model.training.n_takes == 24
+    assert train(takes, folds=FoldBy.TIME).cross_validation.folds.startswith("by time: 5 blocks")
+
+
 def one_step_by_hand(takes, seed):
     """One cycle of the paper's rule by finite differences of the error it says it descends."""
     rng = np.random.default_rng([seed, 0])
@@ -121,7 +186,7 @@ def one_step_by_hand(takes, seed):
 
 def test_a_cycle_of_the_paper_preset_is_the_rule_it_says_it_is(monkeypatch):
     monkeypatch.setattr(training, "PAPER_CYCLES", 1)
-    monkeypatch.setattr(training, "_REPORTS", 1)
+    monkeypatch.setattr(training, "PAPER_REPORTS", 1)
     takes = easy_takes()
 
     network = train(takes, Preset.PAPER, 9).network
