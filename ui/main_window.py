@@ -88,7 +88,8 @@ class MainWindow(QMainWindow):
         try:
             self._show(self._cell.snapshot())
             if self._virtual is not None:
-                self._virtual.refresh()
+                train = self._train if self._place is Place.TRAIN else None
+                self._virtual.refresh(None if train is None else train.newest)
         except Exception as error:  # the top of the poll: the window and its STOP must outlive it
             self.n_failed += 1
             if self.n_failed == 1:

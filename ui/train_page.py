@@ -57,6 +57,11 @@ class TrainPage(QWidget):
         self._person_step.finished.connect(lambda: self.go_to(Step.SENSORS))
         self._sensors_step.finished.connect(lambda: self.go_to(Step.RECORD))
 
+    @property
+    def newest(self) -> GuidedSnapshot:
+        """The moment of the training that it shows."""
+        return self._newest
+
     def show_snapshot(self, cell: Snapshot) -> None:
         """Show another moment of the cell and of the training."""
         guided = self._newest = self._guided.snapshot()
