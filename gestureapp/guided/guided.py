@@ -10,157 +10,24 @@ import time
 from collections.abc import Callable
 from concurrent.futures import Future
 from concurrent.futures import TimeoutError as FutureTimeoutError
-from dataclasses import replace
 from pathlib import Path
 from typing import Final
 
 from gestureapp.clock import Clock, monotonic
-from gestureapp.config import TrainingSettings
 from gestureapp.errors import RecordingError
-from gestureapp.guided.arms import Arms, SensedCell
-from gestureapp.guided.sitting import Plan, Sitting
+from gestureapp.guided.arms import SensedCell
+from gestureapp.guided.desk import Desk
+from gestureapp.guided.sitting import Sitting
 from gestureapp.guided.values import GuidedSnapshot, Pace, Phase, Take
-from gestureapp.guided.verdict import LEVEL_DEG
-from gestureapp.guided.words import CHOOSE_PERSON
 from gestureapp.recording.people import list_people
 from gestureapp.worker import Worker
 
 TICK_S: Final = 0.01
 OPEN_LIMIT_S: Final = 5.0
 """A person's database opens within some ten milliseconds; a disk that takes longer is told."""
-WANTED_MIN: Final = 5
-WANTED_MAX: Final = 200
 
-Wish = Callable[["Desk"], None]
+Wish = Callable[[Desk], None]
 """What the window asks of the thread."""
-
-
-class Desk:
-    """What the thread owns: both arms, the open person and the plan. No thread of its own.
-
-    Args:
-        cell: Whose sensors.
-        data: The data folder.
-        settings: How takes are recorded.
-        clock: Monotonic seconds.
-        wall_clock: Seconds since the epoch.
-
-    Attributes:
-        picture: The newest; any thread.
-        takes: Those of the open person without the bin's, oldest first; any thread.
-    """
-
-    def __init__(
-        self,
-        cell: SensedCell,
-        data: Path,
-        settings: TrainingSettings,
-        clock: Clock,
-        wall_clock: Clock,
-    ) -> None:
-        self._data = data
-        self._clock, self._wall_clock = clock, wall_clock
-        self._arms = Arms(cell)
-        self._plan = Plan(Pace.HANDS_FREE, settings.beat_s, settings.n_takes)
-        self.sitting: Sitting | None = None
-        self._version_before = 0
-        self._version = -1
-        self.picture = GuidedSnapshot()
-        self.takes: tuple[Take, ...] = ()
-
-    def step(self) -> None:
-        """One tick: take what has come, let time pass, draw the picture."""
-        now_s = self._clock()
-        news = self._arms.step(now_s)
-        if self.sitting is not None:
-            self.sitting.step(now_s, self._wall_clock(), news.postures)
-        self._draw(now_s)
-
-    def open(self, person: str) -> None:
-        """Open a person's takes, putting those of another away.
-
-        Raises:
-            RecordingError: they cannot be opened; nobody's are open then.
-        """
-        self.close()
-        self.sitting = Sitting(self._data, person, self._plan, self._arms, self._wall_clock())
-        self._draw(self._clock())
-
-    def close(self) -> None:
-        """Put the person's takes away. Idempotent."""
-        if self.sitting is not None:
-            self.sitting.close()
-            self._version_before += self.sitting.version + 1
-        self.sitting = None
-        self._draw(self._clock())
-
-    def start(self) -> None:
-        """Begin a batch."""
-        if self.sitting is not None:
-            self.sitting.start(self._clock())
-
-    def go_on(self) -> None:
-        """Go on after a pause."""
-        if self.sitting is not None:
-            self.sitting.go_on(self._clock())
-
-    def set_pace(self, pace: Pace, beat_s: float) -> None:
-        """Record like this from the next batch on."""
-        self._set_plan(replace(self._plan, pace=pace, beat_s=beat_s))
-
-    def set_wanted(self, n_takes: int) -> None:
-        """Want so many good takes of each gesture."""
-        wanted = min(max(n_takes, WANTED_MIN), WANTED_MAX)
-        self._set_plan(replace(self._plan, wanted=wanted))
-
-    def _set_plan(self, plan: Plan) -> None:
-        self._plan = plan
-        if self.sitting is not None:
-            self.sitting.set_plan(plan)
-
-    def _draw(self, now_s: float) -> None:
-        tilt_deg = self._arms.tilt_deg(now_s)
-        common = GuidedSnapshot(
-            t_s=now_s,
-            pace=self._plan.pace,
-            beat_s=self._plan.beat_s,
-            tilt_deg=tilt_deg,
-            is_level=tilt_deg <= LEVEL_DEG,
-            posture=self._arms.posture,
-            version=self._version_before,
-            sentence=CHOOSE_PERSON,
-        )
-        self.picture = common if self.sitting is None else self._with_sitting(common, self.sitting)
-
-    def _with_sitting(self, common: GuidedSnapshot, sitting: Sitting) -> GuidedSnapshot:
-        batch = sitting.batch
-        version = self._version_before + sitting.version
-        if version != self._version:
-            self._version, self.takes = version, sitting.takes()
-        picture = replace(
-            common,
-            person=sitting.person,
-            phase=sitting.phase,
-            label=sitting.label,
-            suggested=sitting.suggested,
-            progress=sitting.progress,
-            sentence=sitting.sentence(),
-            trouble=sitting.trouble,
-            undo=sitting.undo_words,
-            redo=sitting.redo_words,
-            version=version,
-        )
-        if batch is None:
-            return picture
-        return replace(
-            picture,
-            count_in=batch.count_in(common.t_s),
-            activation_s=batch.activation_s,
-            next_beat_s=batch.next_beat_s,
-            n_in_batch=sitting.n_in_batch,
-            batch_size=batch.size,
-            batch=sitting.batch_takes(),
-        )
 
 
 class Guided:
@@ -274,9 +141,11 @@ class Guided:
 
     def start_trying(self, per_gesture: int = 5) -> None:
         """Ask for every gesture so often, in random order, and count what the model hears."""
+        self._wishes.put(lambda desk: desk.start_trying(per_gesture))
 
     def stop_trying(self) -> None:
         """End it; what was counted is kept."""
+        self._wishes.put(Desk.stop_trying)
 
     # The thread.
 

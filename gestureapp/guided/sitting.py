@@ -60,6 +60,9 @@ class Sitting:
         batch: The batch under way or the last one, or None.
         trouble: Takes cannot be kept, with cause and remedy; empty when they can.
         version: Grows with every change of the takes.
+        takes: All, oldest first, without the bin's.
+        batch_takes: Those of the batch.
+        n_in_batch: Good ones of the batch.
         progress: Of every gesture.
         suggested: What to record next; empty when all is done.
     """
@@ -69,7 +72,7 @@ class Sitting:
         self._arms = arms
         self._plan = plan
         self._session = _session_of(self._store.takes(), wall_s)
-        self._batch_ids: list[int] = []
+        self._batch_ids: set[int] = set()
         self._batch_label = ""
         self._likeness = Likeness()
         self._good: dict[str, int] = {}
@@ -78,6 +81,9 @@ class Sitting:
         self.version = 0
         self.progress: tuple[GestureProgress, ...] = ()
         self.suggested = ""
+        self.takes: tuple[Take, ...] = ()
+        self.batch_takes: tuple[Take, ...] = ()
+        self.n_in_batch = 0
         self._count()
         self.label = self.suggested
 
@@ -100,21 +106,6 @@ class Sitting:
     def phase(self) -> Phase:
         """Where the recording stands."""
         return Phase.IDLE if self.batch is None else self.batch.phase
-
-    @property
-    def n_in_batch(self) -> int:
-        """Good takes of the batch."""
-        label = self._batch_label
-        return sum(1 for take in self.batch_takes() if take.counts and take.label == label)
-
-    def takes(self) -> tuple[Take, ...]:
-        """All takes, oldest first, without the bin's."""
-        return tuple(take for take in self._store.takes() if not take.is_deleted)
-
-    def batch_takes(self) -> tuple[Take, ...]:
-        """Those of the batch, oldest first, without the bin's."""
-        ids = set(self._batch_ids)
-        return tuple(take for take in self.takes() if take.id in ids)
 
     def sentence(self) -> str:
         """What to do now, or why it does not go on."""
@@ -146,7 +137,8 @@ class Sitting:
         if not self.label:
             return
         self.trouble = ""
-        self._batch_ids, self._batch_label = [], self.label
+        self._batch_ids, self._batch_label = set(), self.label
+        self._count()
         size = order.batch_size(self._good[self.label], self._plan.wanted)
         pace, beat_s = self._plan.pace, self._plan.beat_s
         self.batch = Batch(pace, beat_s, size, now_s, self._arms.posture)
@@ -171,9 +163,8 @@ class Sitting:
 
     def redo_last(self) -> None:
         """Put the last take of the batch into the bin."""
-        takes = self.batch_takes()
-        if takes:
-            self.delete(takes[-1].id)
+        if self.batch_takes:
+            self.delete(self.batch_takes[-1].id)
 
     def undo(self) -> None:
         """Take back the last change of the takes."""
@@ -220,14 +211,14 @@ class Sitting:
 
     def _keep(self, activation_s: float, wall_s: float) -> None:
         times_s, accel_g = self._arms.cut(activation_s)
-        judgement = judge(self.label, times_s, accel_g, self.takes(), self._likeness)
+        judgement = judge(self.label, times_s, accel_g, self.takes, self._likeness)
         new = NewTake(self.label, self._session, wall_s, judgement, times_s, accel_g)
         try:
             take = self._store.add(new)
         except RecordingError as error:
             self._fail(error)
             return
-        self._batch_ids.append(take.id)
+        self._batch_ids.add(take.id)
         self._changed()
 
     def _change(self, act: Callable[[TakeStore], object]) -> None:
@@ -250,9 +241,11 @@ class Sitting:
         self.pause()
 
     def _count(self) -> None:
-        takes = self.takes()
-        self._good = order.count_good(takes)
-        qualities = self._likeness.qualities(takes)
+        self.takes = tuple(take for take in self._store.takes() if not take.is_deleted)
+        self.batch_takes = tuple(take for take in self.takes if take.id in self._batch_ids)
+        self.n_in_batch = order.count_good(self.batch_takes).get(self._batch_label, 0)
+        self._good = order.count_good(self.takes)
+        qualities = self._likeness.qualities(self.takes)
         self.progress = order.progress(self._good, self._plan.wanted, qualities)
         self.suggested = order.suggest(self._good, self._plan.wanted)
 

@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 
 from gestureapp.config import Settings
-from gestureapp.guided.guided import Desk
+from gestureapp.guided.desk import Desk
 from gestureapp.guided.values import GuidedSnapshot, Phase
 from gestureapp.sensing.store import SampleStore
 from gestureapp.sensing.stream import StreamTracker
