@@ -1,7 +1,7 @@
 """An arm that makes a gesture, as flat shapes to be painted. Pure, no Qt."""
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import Enum
 from functools import lru_cache
 from math import cos, pi, radians, sin
@@ -130,7 +130,9 @@ _STRAP_X = (0.044, 0.064)
 _STRAP_Y = 0.042
 _FLOOR_BELOW_M = 0.11
 _ARROW_WIDTH_M, _ARROW_HEAD_M = 0.028, 0.075
-_ICON_BROADER = 1.8
+_ICON_BROADER = 1.7
+_ICON_ARM = 0.5
+"""Share of the forearm that an icon shows."""
 _TIP: Vector = (0.25, 0.0, 0.0)
 _MARKS: dict[Kind, tuple[Vector, Vector, Vector]] = {
     Kind.MOVEMENT: ((0.02, -0.12, 0.0), (0.27, 0.0, 0.0), (0.20, -0.10, 0.0)),
@@ -154,13 +156,13 @@ def figure(name: str, share: float, is_icon: bool = False) -> list[Shape]:
 
     Args:
         name: A gesture's label, ``LEFT_STOP`` or ``LEFT_START``.
-        share: How much of the movement is done, 0 to 1.
-        is_icon: Whether it is to be read a few millimetres high: the arm and a broad arrow alone.
+        share: How much of the movement is done, 0 to 1; an icon has its own.
+        is_icon: Whether it is to be read a few millimetres high: hand and a broad arrow alone.
 
     Raises:
         KeyError: nothing of this name can be drawn.
     """
-    pose, arrow = _pose(name, share), _arrow(name)
+    pose, arrow = _icon_pose(name) if is_icon else _pose(name, share), _arrow(name)
     shapes: list[Shape] = []
     if not is_icon:
         shapes += _ground(name, pose)
@@ -177,12 +179,12 @@ def figure(name: str, share: float, is_icon: bool = False) -> list[Shape]:
 
 @lru_cache(maxsize=2 * len(FIGURES))
 def box_of(name: str, is_icon: bool = False) -> Box:
-    """The room that a figure takes from its first moment to its last; an icon's is the last one's.
+    """The room that a figure takes from its first moment to its last.
 
     Raises:
         KeyError: nothing of this name can be drawn.
     """
-    shares = (1.0,) if is_icon else (0.0, 0.25, 0.5, 0.75, 1.0)
+    shares = (0.0,) if is_icon else (0.0, 0.25, 0.5, 0.75, 1.0)
     shapes = [shape for share in shares for shape in figure(name, share, is_icon)]
     xs, ys = zip(*(point for shape in shapes for point in shape.points), strict=True)
     return Box(min(xs), min(ys), max(xs), max(ys))
@@ -201,6 +203,14 @@ def _pose(name: str, share: float) -> _Pose:
         return _pitched(-angle)
     about_elbow = turn(2, angle)
     return _Pose(_ORIGIN, turned(about_elbow, _FOREARM), about_elbow)
+
+
+def _icon_pose(name: str) -> _Pose:
+    """The hand large and beside its arrow: a movement half done, a turn done, and little arm."""
+    is_movement = name not in _WORDS and gesture(name).kind is Kind.MOVEMENT
+    pose = _pose(name, 0.5 if is_movement else 1.0)
+    arm = plus(pose.elbow, pose.wrist, -1.0)
+    return replace(pose, elbow=plus(pose.wrist, arm, _ICON_ARM))
 
 
 def _pitched(angle_rad: float, is_left: bool = False) -> _Pose:

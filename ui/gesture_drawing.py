@@ -169,7 +169,7 @@ def paint_figure(
     dx = area.center().x() - scale * (box.left + box.right) / 2
     dy = area.center().y() + scale * (box.bottom + box.top) / 2
     looks = _looks(colours, 2.0 if size_px > _BOLD_PX else 1.0)
-    for shape in figure(label, 1.0 if is_icon else share, is_icon):
+    for shape in figure(label, share, is_icon):
         pen, brush = looks[shape.look]
         painter.setPen(pen)
         painter.setBrush(brush)

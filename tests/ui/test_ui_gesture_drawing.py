@@ -76,7 +76,7 @@ def test_the_left_arm_in_stop_has_no_arrow():
 @given(st.sampled_from(FIGURES), st.floats(0.0, 1.0), st.booleans())
 def test_every_moment_of_a_figure_is_drawn_within_its_box(name, share, is_icon):
     box = box_of(name, is_icon)
-    for shape in figure(name, 1.0 if is_icon else share, is_icon):
+    for shape in figure(name, share, is_icon):
         assert len(shape.points) >= 2
         for x, y in shape.points:
             assert box.left - 0.01 <= x <= box.right + 0.01
