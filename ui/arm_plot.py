@@ -10,7 +10,8 @@ from PySide6.QtWidgets import QFrame, QHBoxLayout, QSizePolicy, QVBoxLayout, QWi
 from gestureapp.sensing.store import SampleStore
 from ui.decimate import decimate
 from ui.labels import plain
-from ui.theme import AXIS_DASHES, AXIS_NAMES, SMALL_PX, TEXT_PX, colours_of, mixed, sized
+from ui.plots import colour_plot, still_plot, ticks
+from ui.theme import AXIS_DASHES, AXIS_NAMES, TEXT_PX, colours_of, mixed, sized
 
 SPAN_S = 8.0
 RANGE_G = 2.5
@@ -64,7 +65,7 @@ class ArmPlot(QFrame):
         heading = plain(f"{name}Title", TEXT_PX, is_wrapped=False)
         heading.setText(f"{title} in g, last {SPAN_S:.0f} s")
         sized(heading, TEXT_PX, is_bold=True)
-        self._plot = pg.PlotWidget()
+        self._plot = still_plot(f"{name}Curves")
         self._set_up_plot()
         self._curves = [self._plot.plot(skipFiniteCheck=True) for _ in AXIS_NAMES]
         self._mark = pg.LinearRegionItem(movable=False)
@@ -146,31 +147,16 @@ class ArmPlot(QFrame):
         self._colour()
 
     def _set_up_plot(self) -> None:
-        item = self._plot.getPlotItem()
-        self._plot.setFrameShape(QFrame.Shape.NoFrame)
-        self._plot.setFocusPolicy(Qt.FocusPolicy.NoFocus)
         self._plot.setMinimumHeight(70)
-        item.setMenuEnabled(False)
-        item.setMouseEnabled(x=False, y=False)
-        item.hideButtons()
-        item.disableAutoRange()
+        item = self._plot.getPlotItem()
         item.setRange(xRange=(-SPAN_S, 0), yRange=(-RANGE_G, RANGE_G), padding=0)
-        font = QFont(self.font())
-        font.setPixelSize(SMALL_PX - 1)
-        for side in ("left", "bottom"):
-            item.getAxis(side).setStyle(tickFont=font, tickLength=-4)
-        item.getAxis("left").setTicks([[(g, f"{g:+d}" if g else "0") for g in (-2, -1, 0, 1, 2)]])
+        ticks(self._plot, "left", [(g, f"{g:+d}" if g else "0") for g in (-2, -1, 0, 1, 2)])
         item.getAxis("left").setWidth(26)
-        item.getAxis("bottom").setTicks([[(-t, f"-{t} s") for t in (1, 3, 5, 7)]])
-        item.getAxis("bottom").setHeight(18)
+        ticks(self._plot, "bottom", [(-t, f"-{t} s") for t in (1, 3, 5, 7)])
 
     def _colour(self) -> None:
         colours = colours_of(self.palette())
-        self._plot.setBackground(colours.base)
-        for side in ("left", "bottom"):
-            axis = self._plot.getPlotItem().getAxis(side)
-            axis.setPen(pg.mkPen(colours.line, width=1))
-            axis.setTextPen(pg.mkPen(colours.muted))
+        colour_plot(self._plot, colours)
         for i, curve in enumerate(self._curves):
             colour = QColor(colours.axes[i])
             if not self._is_alive:
