@@ -1,0 +1,91 @@
+"""What a training came to: words first, then the table and the matrix, then the technical part."""
+
+from PySide6.QtCore import Qt
+from PySide6.QtWidgets import QFrame, QGridLayout, QHBoxLayout, QLabel, QVBoxLayout, QWidget
+
+from gestureapp.guided.values import TrainingResult
+from ui.confusion_matrix import ConfusionMatrix
+from ui.fold import Fold
+from ui.labels import plain
+from ui.recognition_table import RecognitionTable
+from ui.theme import LARGE_PX, SMALL_PX, TEXT_PX, sized
+
+_JUDGEMENT_PX = 24
+
+
+class TrainingResultView(QWidget):
+    """One result; what is shown is kept until another one comes. GUI thread only."""
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.setObjectName("trainingResult")
+        self._result: TrainingResult | None = None
+        self._judgement = plain("resultJudgement", _JUDGEMENT_PX)
+        sized(self._judgement, _JUDGEMENT_PX, is_bold=True)
+        self._advice = plain("resultAdvice", LARGE_PX)
+        self._how = plain("resultHow", SMALL_PX + 1)
+        self._table = RecognitionTable()
+        self._matrix = ConfusionMatrix("resultMatrix")
+        self._facts = _Facts()
+        fold = Fold("technicalFold", "Technical part", self._facts)
+        figures = QHBoxLayout()
+        figures.setSpacing(14)
+        figures.addWidget(self._table, 2)
+        figures.addWidget(self._matrix, 3)
+        layout = QVBoxLayout(self)
+        layout.setContentsMargins(0, 0, 0, 0)
+        layout.setSpacing(6)
+        layout.addWidget(self._judgement)
+        layout.addWidget(self._advice)
+        layout.addWidget(self._how)
+        layout.addLayout(figures, 1)
+        layout.addWidget(fold)
+
+    def show_result(self, result: TrainingResult) -> None:
+        """Show another result."""
+        if result is self._result:
+            return
+        self._result = result
+        first, *others = result.words or ("Trained.",)
+        self._judgement.setText(first)
+        self._advice.setText(" ".join(others))
+        self._advice.setVisible(bool(others))
+        evaluation = result.evaluation
+        self._how.setText(
+            f"{evaluation.n} takes, each heard by a network that had not seen it ({result.folds}). "
+            "Only trying it with the arms shows how well it does in operation."
+        )
+        self._table.show_evaluation(evaluation)
+        self._matrix.show_evaluation(evaluation)
+        self._facts.show_facts(result)
+
+
+class _Facts(QFrame):
+    """Names and values in two columns."""
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.setObjectName("technicalPart")
+        self._grid = QGridLayout(self)
+        self._grid.setContentsMargins(18, 2, 8, 4)
+        self._grid.setHorizontalSpacing(16)
+        self._grid.setVerticalSpacing(2)
+        self._grid.setColumnStretch(1, 1)
+        self._labels: list[QLabel] = []
+
+    def show_facts(self, result: TrainingResult) -> None:
+        """Show another result's facts."""
+        for label in self._labels:
+            self._grid.removeWidget(label)
+            label.deleteLater()
+        self._labels = []
+        took = ("from the press to the written model", f"{result.duration_s:.1f} s")
+        median, p95 = result.evaluation.decision_ms
+        decided = ("from the activation to the answer", f"{median:.0f} ms, 95 % in {p95:.0f} ms")
+        for row, fact in enumerate((*result.facts, took, decided)):
+            for column, text in enumerate(fact):
+                label = plain(f"fact_{row}_{column}", TEXT_PX)
+                label.setText(text)
+                label.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
+                self._grid.addWidget(label, row, column, Qt.AlignmentFlag.AlignTop)
+                self._labels.append(label)
