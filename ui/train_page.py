@@ -6,12 +6,15 @@ from gestureapp.cell.controls import CellControls
 from gestureapp.cell.snapshot import Snapshot
 from gestureapp.guided.controls import GuidedControls, TrainerControls
 from gestureapp.guided.values import GuidedSnapshot, Pace, Phase, TrainingView
+from ui.check_step import CheckStep
 from ui.pages import PageStack
 from ui.person_step import PersonStep
 from ui.record_step import RecordStep
 from ui.sensors_step import SensorsStep
 from ui.step_bar import StepBar
+from ui.train_step import TrainStep
 from ui.train_words import Step, is_running, step_states
+from ui.try_step import TryStep
 
 
 class TrainPage(QWidget):
@@ -45,6 +48,13 @@ class TrainPage(QWidget):
             Step.SENSORS: self._sensors_step,
             Step.RECORD: self._record_step,
         }
+        self._later_steps: dict[Step, CheckStep | TrainStep | TryStep] = {
+            Step.CHECK: CheckStep(guided)
+        }
+        if trainer is not None:
+            self._later_steps[Step.TRAIN] = TrainStep(trainer)
+            self._later_steps[Step.TRY] = TryStep(guided, trainer)
+        self._steps.update(self._later_steps)
         self._stack = PageStack("trainSteps")
         for widget in self._steps.values():
             self._stack.addWidget(widget)
@@ -81,9 +91,13 @@ class TrainPage(QWidget):
                 self._sensors_step.show_snapshot(guided, cell)
             case Step.RECORD:
                 self._record_step.show_snapshot(guided, cell)
+            case later if later in self._later_steps:
+                self._later_steps[later].show_snapshot(guided)
 
     def go_to(self, step: Step) -> None:
         """Show another step; a batch or a test under way is put on hold."""
+        if step not in self._steps:
+            return  # there is no trainer
         if step is not self.step:
             self.leave()
         if step is Step.PERSON:
