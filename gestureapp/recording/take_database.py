@@ -26,14 +26,15 @@ _TABLES: Final = (
         id INTEGER PRIMARY KEY,
         label TEXT NOT NULL, is_excluded INTEGER NOT NULL, is_deleted INTEGER NOT NULL,
         session TEXT NOT NULL, wall_s REAL NOT NULL, verdict TEXT NOT NULL, words TEXT NOT NULL,
-        times_s BLOB NOT NULL, accel_g BLOB NOT NULL)""",
+        times_s BLOB NOT NULL, accel_g BLOB NOT NULL, crc32 INTEGER NOT NULL)""",
     """CREATE TABLE change (
         id INTEGER PRIMARY KEY, take_id INTEGER NOT NULL, words TEXT NOT NULL,
         old_label TEXT NOT NULL, old_excluded INTEGER NOT NULL, old_deleted INTEGER NOT NULL,
         new_label TEXT NOT NULL, new_excluded INTEGER NOT NULL, new_deleted INTEGER NOT NULL,
         is_undone INTEGER NOT NULL)""",
 )
-"""``times_s`` float64 (k), ``accel_g`` float32 (k, 3), both little-endian."""
+"""``times_s`` float64 (k), ``accel_g`` float32 (k, 3), both little-endian; ``crc32`` of the two in
+this order, as SQLite itself does not notice a changed byte inside them."""
 
 Value = str | int | float | bytes
 

@@ -7,6 +7,7 @@ how the take was before and after, so that undo and redo outlive the application
 is undone, and a deletion, put the take into the bin; nothing is ever erased.
 """
 
+import zlib
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -107,13 +108,14 @@ class TakeStore:
         """
         times_s = np.ascontiguousarray(new.times_s, dtype="<f8")
         accel_g = np.ascontiguousarray(new.accel_g, dtype="<f4")
+        times, accel = times_s.tobytes(), accel_g.tobytes()
         words, judgement = f"take {self._n_of(new.label) + 1} of {new.label}", new.judgement
         with self._db.transaction():
             row = (new.label, new.session, new.wall_s, judgement.verdict.value, judgement.words)
             take_id = self._db.write(
                 "INSERT INTO take (is_excluded, is_deleted, label, session, wall_s, verdict, words,"
-                " times_s, accel_g) VALUES (0, 0, ?, ?, ?, ?, ?, ?, ?)",
-                (*row, times_s.tobytes(), accel_g.tobytes()),
+                " times_s, accel_g, crc32) VALUES (0, 0, ?, ?, ?, ?, ?, ?, ?, ?)",
+                (*row, times, accel, zlib.crc32(times + accel)),
             )
             there = (new.label, False, False)
             change = self._note(take_id, words, (new.label, False, True), there)
@@ -246,7 +248,7 @@ class TakeStore:
     def _load(self) -> None:
         takes = self._db.rows(
             "SELECT id, label, session, wall_s, verdict, words, is_excluded, is_deleted,"
-            " times_s, accel_g FROM take ORDER BY id"
+            " times_s, accel_g, crc32 FROM take ORDER BY id"
         )
         for row in takes:
             try:
@@ -273,17 +275,18 @@ def _take_of(row: tuple[Value, ...]) -> Take:
         ValueError: it does not fit together.
         TypeError: something in it is of the wrong type.
     """
-    take_id, label, session, wall_s, verdict, words, is_excluded, is_deleted, times, accel = row
+    take_id, label, session, wall_s, verdict, words, is_excluded, is_deleted, *samples = row
+    times, accel, crc32 = samples
     if not isinstance(times, bytes) or not isinstance(accel, bytes):
         raise TypeError("its samples are missing")
     if not isinstance(take_id, int) or not isinstance(wall_s, int | float):
         raise TypeError("its number or time is missing")
+    if zlib.crc32(times + accel) != crc32:
+        raise ValueError("its samples have changed on the disk")
     times_s = np.frombuffer(times, dtype="<f8")
     accel_g = np.frombuffer(accel, dtype="<f4").reshape(-1, 3)
     if len(times_s) != len(accel_g):
         raise ValueError(f"it has {len(times_s)} times for {len(accel_g)} samples")
-    if not np.all(np.isfinite(times_s)) or not np.all(np.isfinite(accel_g)):
-        raise ValueError("a sample is not a number")
     return Take(
         id=take_id,
         label=str(label),
