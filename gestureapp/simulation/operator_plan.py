@@ -17,8 +17,9 @@ STOP_HELD_S = 0.6
 SAID_AHEAD_S = 0.7
 """A gesture that begins later than this is announced as waiting."""
 
-QUIET_S = 0.25
-"""How long the hand rests between two gestures of a brisk repetition."""
+QUIET_S = 0.5
+"""How long the hand rests between two gestures of a brisk repetition: what a take holds before its
+activation is to show rest."""
 
 LEFT_DOWN_FACTOR = 1.1
 """The left arm's turn may take a little longer than its mean."""
@@ -172,7 +173,7 @@ class OperatorPlan:
             label: Which gesture.
             now_s: Monotonic time.
             tempo: How quickly the arms go back from it, and from the one before to it.
-            late_s: The right arm begins so much later than it should.
+            late_s: The right arm begins only so long after the activation; 0 is as it should.
 
         Raises:
             KeyError: no gesture has this label.
@@ -191,7 +192,7 @@ class OperatorPlan:
         return [
             *orders,
             Order(Side.LEFT, {"do": "take", "posture": ArmPosture.START.value, "at_s": left_s}),
-            self._perform(wanted, self.activation_s, after_s + late_s, tempo),
+            self._perform(wanted, self.activation_s, late_s or after_s, tempo),
         ]
 
     def on_beat(self, label: str, beat_s: float, tempo: Tempo, late_s: float = 0.0) -> list[Order]:
@@ -201,7 +202,7 @@ class OperatorPlan:
             label: Which gesture.
             beat_s: When the beat comes, monotonic.
             tempo: How quickly the hand goes back from it.
-            late_s: It begins so much later than it should.
+            late_s: It begins only so long after the beat; 0 is as it should.
 
         Raises:
             KeyError: no gesture has this label.
@@ -209,7 +210,7 @@ class OperatorPlan:
         wanted = gesture(label)
         self.activation_s = beat_s
         after_s = self.timing.starts_after_s(wanted, self.rng)
-        return [self._perform(wanted, beat_s, after_s + late_s, tempo)]
+        return [self._perform(wanted, beat_s, late_s or after_s, tempo)]
 
     def lead_s(self, label: str) -> float:
         """How long before a beat the right arm may have to be told.

@@ -17,8 +17,8 @@ LOWERED_AFTER_S = 0.7
 REACTION_S = 0.3
 """A prompt is followed so long after it has come: simple reactions to what is seen take 0.2 to
 0.3 s."""
-BRISK = Tempo(until_s=1.0, back_s=0.6, stop_held_s=0.3)
-"""Hands-free: a take lasts until 1.0 s after its activation."""
+BRISK = Tempo(until_s=0.5, back_s=0.6, stop_held_s=0.3)
+"""With both arms: the hand is back before the left arm is lowered and raised again."""
 BEAT_BACK_S = 0.6
 BEAT_REST_S = 0.55
 """On a beat the hand is back so long before the next one: a held turn begins about then."""

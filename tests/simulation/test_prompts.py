@@ -6,12 +6,16 @@ from dataclasses import dataclass, field, replace
 from itertools import pairwise
 from math import inf
 
+import numpy as np
 import pytest
 
 from gestureapp.config import SiteSettings
 from gestureapp.gestures import LABELS
 from gestureapp.guided.batch import Batch
+from gestureapp.guided.likeness import Likeness
 from gestureapp.guided.values import GuidedSnapshot, Pace
+from gestureapp.guided.verdict import judge
+from gestureapp.recording.take_values import Verdict
 from gestureapp.sensing.posture import PostureDetector
 from gestureapp.sensing.values import ArmPosture, Side
 from gestureapp.simulation.operator_plan import OperatorPlan, Timing
@@ -134,6 +138,43 @@ def test_the_hand_is_level_again_before_the_next_hands_free_take(label):
     for at_s in activations:
         quiet = [a for t, a in room.right if -lead_s - 0.1 <= t - at_s <= -lead_s]
         assert all(abs(x) < 0.15 and abs(y) < 0.15 and abs(z - 1) < 0.15 for x, y, z in quiet)
+
+
+@pytest.mark.parametrize("label", LABELS)
+@pytest.mark.parametrize("pace", Pace)
+def test_a_take_that_is_not_clumsy_is_judged_good(label, pace):
+    room = Room()
+    activations, _ = room.record(label, pace, 5)
+    for at_s in activations:
+        times_s = np.array([t for t, _ in room.around(at_s)])
+        accel_g = np.array([a for _, a in room.around(at_s)])
+        assert judge(label, times_s, accel_g, (), Likeness()).is_good
+
+
+class AlwaysClumsy(random.Random):
+    """Every take is clumsy in the same way."""
+
+    slip = "late"
+
+    def random(self) -> float:
+        return 0.0
+
+    def choice(self, seq):
+        return self.slip if self.slip in seq else seq[0]
+
+
+@pytest.mark.parametrize("slip", ["late", "not at all"])
+@pytest.mark.parametrize("label", ["X+", "RX+", "RZ+"])
+@pytest.mark.parametrize("pace", Pace)
+def test_a_clumsy_take_is_judged_bad_for_what_it_is(label, slip, pace):
+    chance = AlwaysClumsy()
+    chance.slip = slip
+    room = Room(chance=chance)
+    (at_s,), _ = room.record(label, pace, 1)
+    times_s = np.array([t for t, _ in room.around(at_s)])
+    accel_g = np.array([a for _, a in room.around(at_s)])
+    judged = judge(label, times_s, accel_g, (), Likeness())
+    assert judged.verdict is (Verdict.TOO_LATE if slip == "late" else Verdict.NO_MOVEMENT)
 
 
 def test_a_session_of_twelve_times_thirty_takes_lasts_less_than_fifteen_minutes():
