@@ -63,7 +63,7 @@ class ArmPlot(QFrame):
         self._is_alive: bool | None = None
         self._window_s: tuple[float, float] | None = None
         heading = plain(f"{name}Title", TEXT_PX, is_wrapped=False)
-        heading.setText(f"{title} in g, last {SPAN_S:.0f} s")
+        heading.setText(f"{title} in g, {SPAN_S:.0f} s")
         sized(heading, TEXT_PX, is_bold=True)
         self._plot = still_plot(f"{name}Curves")
         self._set_up_plot()

@@ -98,7 +98,7 @@ class PromptView(QFrame):
         self._words[0].setText(first)
         self._words[1].setText(second)
         is_level = gesture(label).kind is Kind.MOVEMENT
-        self._how.setText(f"{label}   {'hand level' if is_level else 'and keep it there'}")
+        self._how.setText(f"{label}   hand level" if is_level else label)
         self.setAccessibleName(f"{label}: {instruction(label)}")
 
 

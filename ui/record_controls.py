@@ -21,6 +21,8 @@ from gestureapp.guided.controls import GuidedControls
 from gestureapp.guided.values import GuidedSnapshot, Pace, Phase
 from ui.labels import plain
 from ui.operate_page import framed
+from ui.take_buttons import TakeButtons
+from ui.take_strip import TakeStrip
 from ui.theme import LARGE_PX, SMALL_PX, TEXT_PX, sized
 from ui.train_words import is_running, pace_text
 
@@ -32,7 +34,9 @@ WANTED_RANGE = (5, 200)
 class RecordControls(QFrame):
     """Passes presses on; shows what can be done now. GUI thread only."""
 
-    def __init__(self, guided: GuidedControls, parent: QWidget | None = None) -> None:
+    def __init__(
+        self, guided: GuidedControls, strip: TakeStrip, parent: QWidget | None = None
+    ) -> None:
         super().__init__(parent)
         self.setObjectName("recordControls")
         framed(self)
@@ -49,6 +53,7 @@ class RecordControls(QFrame):
             Pace.HANDS_FREE: _button("paceHandsFree", "Hands-free", pace_text(Pace.HANDS_FREE)),
             Pace.RHYTHM: _button("paceRhythm", "Rhythm", pace_text(Pace.RHYTHM)),
         }
+        self._marked = TakeButtons(guided, strip)
         self._beat = QDoubleSpinBox()
         self._wanted = QSpinBox()
         self._set_up_numbers()
@@ -162,14 +167,15 @@ class RecordControls(QFrame):
         grid.addWidget(self._redo_last, 2, 0, 1, 2)
         grid.addWidget(self._undo, 3, 0)
         grid.addWidget(self._redo, 3, 1)
-        grid.setRowMinimumHeight(4, 6)
-        grid.addWidget(_caption("paceTitle", "What begins a take"), 5, 0, 1, 2)
-        grid.addWidget(self._paces[Pace.HANDS_FREE], 6, 0)
-        grid.addWidget(self._paces[Pace.RHYTHM], 6, 1)
-        grid.addWidget(_caption("beatTitle", "Beat"), 7, 0)
-        grid.addWidget(self._beat, 7, 1)
-        grid.addWidget(_caption("wantedTitle", "Takes each"), 8, 0)
-        grid.addWidget(self._wanted, 8, 1)
+        grid.addWidget(_caption("markedTitle", "The marked take"), 4, 0, 1, 2)
+        grid.addWidget(self._marked, 5, 0, 1, 2)
+        grid.addWidget(_caption("paceTitle", "What begins a take"), 6, 0, 1, 2)
+        grid.addWidget(self._paces[Pace.HANDS_FREE], 7, 0)
+        grid.addWidget(self._paces[Pace.RHYTHM], 7, 1)
+        grid.addWidget(_caption("beatTitle", "Beat"), 8, 0)
+        grid.addWidget(self._beat, 8, 1)
+        grid.addWidget(_caption("wantedTitle", "Takes each"), 9, 0)
+        grid.addWidget(self._wanted, 9, 1)
         for column in (0, 1):
             grid.setColumnStretch(column, 1)
         layout = QVBoxLayout(self)

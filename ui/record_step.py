@@ -1,14 +1,10 @@
 """Record: which gesture, what to do, the live hand, the batch's takes, and its buttons."""
 
-from functools import partial
-
-from PySide6.QtCore import Qt
 from PySide6.QtGui import QKeySequence, QShortcut
-from PySide6.QtWidgets import QHBoxLayout, QMenu, QPushButton, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QHBoxLayout, QVBoxLayout, QWidget
 
 from gestureapp.cell.controls import CellControls
 from gestureapp.cell.snapshot import Snapshot
-from gestureapp.gestures import GESTURES
 from gestureapp.guided.controls import GuidedControls
 from gestureapp.guided.values import GuidedSnapshot, Phase
 from ui.arm_plot import ArmPlot
@@ -18,7 +14,6 @@ from ui.operate_page import framed
 from ui.prompt_view import PromptView
 from ui.record_controls import RecordControls
 from ui.take_strip import TakeStrip
-from ui.theme import SMALL_PX, sized
 
 _BEFORE_S, _AFTER_S = 0.5, 1.0
 """A take holds the samples from so long before its activation to so long after it."""
@@ -42,10 +37,7 @@ class RecordStep(QWidget):
         framed(self._plot)
         self._level = LevelView("recordLevel")
         self._strip = TakeStrip()
-        self._exclude = QPushButton("Exclude")
-        self._move = QPushButton("Move to\u2026")
-        self._controls = RecordControls(guided)
-        self._set_up_take_buttons()
+        self._controls = RecordControls(guided, self._strip)
         self._lay_out()
         self._connect()
 
@@ -61,49 +53,8 @@ class RecordStep(QWidget):
         self._plot.mark_window(taken, cell.t_s)
         self._plot.show_samples(self._cell.right, cell.t_s, cell.right.is_alive)
 
-    def _press_exclude(self) -> None:
-        take = self._strip.chosen
-        if take is not None:
-            self._guided.exclude(take.id, is_excluded=not take.is_excluded)
-
-    def _move_to(self, label: str) -> None:
-        take = self._strip.chosen
-        if take is not None and take.label != label:
-            self._guided.move(take.id, label)
-
-    def _name_take_buttons(self) -> None:
-        take = self._strip.chosen
-        for button in (self._exclude, self._move):
-            button.setEnabled(take is not None)
-        self._exclude.setText(
-            "Take back in" if take is not None and take.is_excluded else "Exclude"
-        )
-
-    def _set_up_take_buttons(self) -> None:
-        menu = QMenu(self._move)
-        menu.setObjectName("moveMenu")
-        for each in GESTURES:
-            action = menu.addAction(f"{each.label}   {each.words}")
-            action.setObjectName(f"moveTo_{each.label}")
-            action.triggered.connect(partial(self._move_to, each.label))
-        self._move.setMenu(menu)
-        for button, name, spoken in (
-            (self._exclude, "excludeTake", "Take the marked take out of the training, or back in"),
-            (self._move, "moveTake", "Say that the marked take shows another gesture"),
-        ):
-            button.setObjectName(name)
-            button.setAccessibleName(spoken)
-            button.setToolTip(spoken)
-            button.setAutoDefault(False)
-            button.setFocusPolicy(Qt.FocusPolicy.TabFocus)
-            button.setFixedWidth(_SIDE_PX)
-            sized(button, SMALL_PX + 1)
-
     def _connect(self) -> None:
         self._list.chosen.connect(self._guided.choose)
-        self._exclude.clicked.connect(self._press_exclude)
-        self._strip.selected.connect(self._name_take_buttons)
-        self._name_take_buttons()
         controls = self._controls
         # Only while this step is in sight; none of them is a key of the virtual operator.
         for key, act in (
@@ -124,20 +75,11 @@ class RecordStep(QWidget):
         self._level.setFixedWidth(_SIDE_PX)
         self._level.setFixedHeight(80)
         live.addWidget(self._level)
-        taken = QHBoxLayout()
-        taken.setSpacing(8)
-        taken.addWidget(self._strip, 1)
-        act = QVBoxLayout()
-        act.addStretch(1)
-        act.addWidget(self._exclude)
-        act.addWidget(self._move)
-        act.addStretch(1)
-        taken.addLayout(act)
         middle = QVBoxLayout()
         middle.setSpacing(6)
         middle.addWidget(self._prompt, 5)
         middle.addLayout(live, 2)
-        middle.addLayout(taken)
+        middle.addWidget(self._strip)
         layout = QHBoxLayout(self)
         layout.setContentsMargins(0, 0, 0, 0)
         layout.setSpacing(6)

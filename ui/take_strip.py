@@ -3,7 +3,7 @@
 from collections.abc import Callable
 
 import numpy as np
-from PySide6.QtCore import QPointF, QRectF, QSize, Qt, Signal
+from PySide6.QtCore import QPointF, QRectF, Qt, Signal
 from PySide6.QtGui import QColor, QFont, QPainter, QPaintEvent, QPen, QPolygonF, QResizeEvent
 from PySide6.QtWidgets import QAbstractButton, QHBoxLayout, QSizePolicy, QWidget
 
@@ -11,11 +11,16 @@ from gestureapp.guided.values import Take
 from ui.theme import SMALL_PX, colours_of
 from ui.train_words import take_text, verdict_sign
 
-WIDTH_PX = 92
+_LEAST_PX, _MOST_PX = 64, 110
+"""Eight takes fit on a screen of 1280 pixels, and a batch of ten on a large one."""
+_GAP_PX = 4
 _HEIGHT_PX = 86
+_CURVE_PX = 46
+BATCH = 10
+"""So many have room beside each other where there is room enough."""
 _POINTS = 40
 """Enough for a curve a thumb wide."""
-_RANGE_G = 2.0
+_RANGE_G = 1.8
 
 
 def key_of(take: Take) -> tuple[object, ...]:
@@ -38,7 +43,7 @@ class TakePicture(QAbstractButton):
         self.setObjectName(f"take_{place}")
         self.setCheckable(True)
         self.setFocusPolicy(Qt.FocusPolicy.NoFocus)
-        self.setSizePolicy(QSizePolicy.Policy.Fixed, QSizePolicy.Policy.Fixed)
+        self.setFixedHeight(_HEIGHT_PX)
 
     def show_take(self, take: Take, number: int) -> None:
         """Show a take, the how-manieth of the batch."""
@@ -51,10 +56,6 @@ class TakePicture(QAbstractButton):
         self._curves = _curves_of(take)
         self.update()
 
-    def sizeHint(self) -> QSize:
-        """Curve above, words below."""
-        return QSize(WIDTH_PX, _HEIGHT_PX)
-
     def paintEvent(self, event: QPaintEvent) -> None:
         """Draw curves, sign and words."""
         if self.take is None:
@@ -66,15 +67,16 @@ class TakePicture(QAbstractButton):
         is_chosen = self.isChecked()
         painter.setPen(QPen(QColor(colours.info if is_chosen else colours.line), 1 + 2 * is_chosen))
         painter.drawRect(area.adjusted(is_chosen, is_chosen, -is_chosen, -is_chosen))
-        self._draw_curves(painter, QRectF(3, 3, self.width() - 6, 46))
+        self._draw_curves(painter, QRectF(3, 3, self.width() - 6, _CURVE_PX))
         counts = self.take.counts
         painter.setPen(QColor(colours.text if counts else colours.attention))
-        painter.setFont(self._font(19, is_bold=True))
-        sign = QRectF(4, 50, 20, 32)
+        painter.setFont(self._font(20, is_bold=True))
+        sign = QRectF(4, 2, 20, 22)
         painter.drawText(sign, Qt.AlignmentFlag.AlignCenter, verdict_sign(self.take))
         painter.setFont(self._font(SMALL_PX - 1, is_bold=not counts))
-        words = QRectF(25, 50, self.width() - 28, 33)
-        flags = Qt.AlignmentFlag.AlignVCenter | Qt.TextFlag.TextWordWrap
+        below = _CURVE_PX + 3
+        words = QRectF(3, below, self.width() - 6, _HEIGHT_PX - below - 3)
+        flags = Qt.AlignmentFlag.AlignCenter | Qt.TextFlag.TextWordWrap
         painter.drawText(words, flags, take_text(self.take))
         painter.end()
 
@@ -115,7 +117,7 @@ class TakeStrip(QWidget):
         self._pictures: list[TakePicture] = []
         self._row = QHBoxLayout(self)
         self._row.setContentsMargins(0, 0, 0, 0)
-        self._row.setSpacing(4)
+        self._row.setSpacing(_GAP_PX)
         self._row.addStretch(1)
         self.setFixedHeight(_HEIGHT_PX)
         self.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Fixed)
@@ -149,7 +151,9 @@ class TakeStrip(QWidget):
         self._lay_out()
 
     def _lay_out(self) -> None:
-        room = max(1, (self.width() + 4) // (WIDTH_PX + 4))
+        wide = (self.width() + _GAP_PX) // BATCH - _GAP_PX
+        wide = min(max(wide, _LEAST_PX), _MOST_PX)
+        room = max(1, (self.width() + _GAP_PX) // (wide + _GAP_PX))
         n = len(self._batch)
         shown = self._batch[-room:]
         while len(self._pictures) < len(shown):
@@ -159,6 +163,7 @@ class TakeStrip(QWidget):
             self._pictures.append(picture)
         for i, picture in enumerate(self._pictures):
             picture.setVisible(i < len(shown))
+            picture.setFixedWidth(wide)
             if i < len(shown):
                 picture.show_take(shown[i], n - len(shown) + i + 1)
         self._mark()
