@@ -19,7 +19,8 @@ from ui.gesture_drawing import paint_figure
 from ui.theme import SMALL_PX, TEXT_PX, colours_of
 from ui.train_words import quality_sign
 
-WIDTH_PX = 196
+_WIDTH_PX = (196, 290)
+"""Least and most of a row; its words show where there is room for two lines."""
 _ROW_PX = 27
 """Twelve of them fit beside the drawing on a screen of 720 pixels."""
 _RING_PX = 18
@@ -38,7 +39,7 @@ class GestureRow(QAbstractButton):
         self.setText(label)
         self.setCheckable(True)
         self.setFocusPolicy(Qt.FocusPolicy.TabFocus)
-        self.setSizePolicy(QSizePolicy.Policy.Fixed, QSizePolicy.Policy.Expanding)
+        self.setSizePolicy(QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Expanding)
         self._name()
 
     @property
@@ -61,11 +62,11 @@ class GestureRow(QAbstractButton):
 
     def sizeHint(self) -> QSize:
         """One line."""
-        return QSize(WIDTH_PX, _ROW_PX + 6)
+        return QSize(_WIDTH_PX[0], _ROW_PX + 6)
 
     def minimumSizeHint(self) -> QSize:
         """One line, tight."""
-        return QSize(WIDTH_PX, _ROW_PX)
+        return QSize(_WIDTH_PX[0], _ROW_PX)
 
     def paintEvent(self, event: QPaintEvent) -> None:
         """Draw ground, label, words, ring and numbers."""
@@ -156,6 +157,7 @@ class GestureList(QFrame):
         super().__init__(parent)
         self.setObjectName("gestureList")
         self.setAccessibleName("Gestures to record")
+        self.setMaximumWidth(_WIDTH_PX[1])
         group = QButtonGroup(self)
         layout = QVBoxLayout(self)
         layout.setContentsMargins(2, 2, 2, 2)

@@ -149,7 +149,7 @@ class MainWindow(QMainWindow):
         self._bars.show_unconfirmed(snapshot.is_stop_unconfirmed)
         self._strip.show_snapshot(snapshot)
         self._rail.show_note(Place.TRAIN, training_barrier(snapshot))
-        if self._train is not None and self._pages.currentWidget() is self._train:
+        if self._train is not None and self._place is Place.TRAIN:
             self._train.show_snapshot(snapshot)
             self._notice.show_text(self._train.notice)
         else:

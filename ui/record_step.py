@@ -8,7 +8,7 @@ from gestureapp.cell.snapshot import Snapshot
 from gestureapp.guided.controls import GuidedControls
 from gestureapp.guided.values import GuidedSnapshot, Phase
 from ui.arm_plot import ArmPlot
-from ui.gesture_list import WIDTH_PX, GestureList
+from ui.gesture_list import GestureList
 from ui.level_view import LevelView
 from ui.operate_page import framed
 from ui.prompt_view import PromptView
@@ -31,7 +31,6 @@ class RecordStep(QWidget):
         self._cell, self._guided = cell, guided
         self._list = GestureList()
         framed(self._list)
-        self._list.setFixedWidth(WIDTH_PX + 8)
         self._prompt = PromptView()
         self._plot = ArmPlot("recordPlot", "Right arm")
         framed(self._plot)
@@ -83,6 +82,6 @@ class RecordStep(QWidget):
         layout = QHBoxLayout(self)
         layout.setContentsMargins(0, 0, 0, 0)
         layout.setSpacing(6)
-        layout.addWidget(self._list)
-        layout.addLayout(middle, 1)
+        layout.addWidget(self._list, 2)
+        layout.addLayout(middle, 6)
         layout.addWidget(self._controls)

@@ -22,6 +22,7 @@ class TrainPage(QWidget):
 
     Attributes:
         step: The one in sight.
+        newest: What was shown last.
         notice: What has to be said across the window: a lost sensor, takes that cannot be kept.
     """
 
@@ -37,7 +38,7 @@ class TrainPage(QWidget):
         self.step = Step.PERSON
         self.notice = ""
         self._guided, self._trainer = guided, trainer
-        self._newest = guided.snapshot()
+        self.newest = guided.snapshot()
         self._person = ""
         self._bar = StepBar()
         self._person_step = PersonStep(guided, cell.settings.person.name)
@@ -67,14 +68,9 @@ class TrainPage(QWidget):
         self._person_step.finished.connect(lambda: self.go_to(Step.SENSORS))
         self._sensors_step.finished.connect(lambda: self.go_to(Step.RECORD))
 
-    @property
-    def newest(self) -> GuidedSnapshot:
-        """The moment of the training that it shows."""
-        return self._newest
-
     def show_snapshot(self, cell: Snapshot) -> None:
         """Show another moment of the cell and of the training."""
-        guided = self._newest = self._guided.snapshot()
+        guided = self.newest = self._guided.snapshot()
         training = TrainingView() if self._trainer is None else self._trainer.view()
         states = step_states(guided, training, cell)
         self._bar.show_states(states)
@@ -108,9 +104,9 @@ class TrainPage(QWidget):
 
     def leave(self) -> None:
         """The page or its step goes out of sight: nothing is to be recorded unseen."""
-        if is_running(self._newest.phase):
+        if is_running(self.newest.phase):
             self._guided.pause()
-        if self._newest.trying.is_on:
+        if self.newest.trying.is_on:
             self._guided.stop_trying()
 
     def _choose_pace(self, guided: GuidedSnapshot, cell: Snapshot) -> None:

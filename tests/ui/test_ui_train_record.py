@@ -1,0 +1,226 @@
+"""Recording as a person sees it: prompt, count-in, beat, takes with verdicts, and the buttons."""
+
+import pytest
+from PySide6.QtCore import Qt
+from PySide6.QtGui import QAction
+from PySide6.QtWidgets import QDoubleSpinBox, QLabel, QSpinBox
+
+from gestureapp.gestures import GESTURES
+from gestureapp.guided.values import Pace, Phase
+from gestureapp.sensing.values import Side
+from tests.ui.sitting import Room
+from ui.gesture_list import GestureRow
+from ui.prompt_view import PromptView
+from ui.take_strip import TakeStrip
+
+CONTROL = Qt.KeyboardModifier.ControlModifier
+SHIFT = Qt.KeyboardModifier.ShiftModifier
+
+
+@pytest.fixture
+def room(qtbot, cell, operator, tmp_path):
+    room = Room(cell, operator, tmp_path)
+    qtbot.addWidget(room.window)
+    room.record()
+    yield room
+    room.window.close()
+    room.bench.desk.close()
+
+
+def row(room: Room, label: str) -> GestureRow:
+    return room.window.findChild(GestureRow, f"record_{label}")
+
+
+def strip(room: Room) -> TakeStrip:
+    return room.window.findChild(TakeStrip)
+
+
+def prompt(room: Room) -> PromptView:
+    return room.window.findChild(PromptView)
+
+
+def signs(room: Room) -> list[str]:
+    return [picture.accessibleName().rpartition(": ")[2] for picture in strip(room).pictures]
+
+
+def test_the_first_gesture_is_chosen_and_told_in_large_words(room):
+    assert row(room, "X+").isChecked()
+    assert (room.text("promptWords_0"), room.text("promptWords_1")) == ("push", "forward")
+    assert room.text("promptHow") == "X+   hand level"
+    assert room.text("takeLabel") == "take 1 of 30"
+    assert prompt(room).drawing.label == "X+"
+    assert room.window.findChild(QLabel, "promptWords_0").fontMetrics().capHeight() >= 30
+
+
+def test_every_gesture_can_be_chosen_and_is_told(room):
+    for each in GESTURES:
+        room.press(f"record_{each.label}")
+        assert room.bench.picture.label == each.label
+        assert prompt(room).drawing.label == each.label
+        told = f"{room.text('promptWords_0')} {room.text('promptWords_1')}"
+        assert told == each.words
+
+
+def test_enter_begins_with_a_count_in(room):
+    room.key(Qt.Key.Key_Return)
+    assert room.bench.picture.phase is Phase.COUNT_IN
+    assert prompt(room).count == "3"
+    assert room.widget("countIn").isVisible()
+    room.run(1.0)
+    assert prompt(room).count == "2"
+    room.run(2.1)
+    assert prompt(room).count == ""
+    assert not room.widget("countIn").isVisible()
+
+
+def test_a_batch_fills_the_ring_and_shows_each_take_with_its_verdict(room):
+    room.press("startBatch")
+    room.run_until(lambda picture: len(picture.batch) == 3)
+    assert len(strip(room).pictures) == 3
+    n_good = row(room, "X+").progress.good
+    assert n_good == signs(room).count("good") > 0
+    assert room.text("takeLabel") == f"take {n_good + 1} of 30"
+    room.run_until(lambda picture: picture.phase is Phase.IDLE)
+    assert row(room, "X+").progress.good == 10
+    assert room.button("stepRecord").state.text == "10 of 360"
+
+
+def test_the_frame_is_lit_at_each_beat(room):
+    room.press("paceRhythm")
+    room.press("startBatch")
+    room.run_until(lambda picture: picture.phase is Phase.TAKING)
+    assert prompt(room).is_lit
+    room.run(0.3)
+    assert not prompt(room).is_lit
+
+
+def test_redo_last_by_key_takes_the_last_take_back_and_undo_and_redo_follow(room):
+    room.press("startBatch")
+    room.run_until(lambda picture: picture.n_in_batch == 2)
+    room.press("pauseBatch")
+    assert row(room, "X+").progress.good == 2
+    room.key(Qt.Key.Key_R)
+    assert row(room, "X+").progress.good == 1
+    room.key(Qt.Key.Key_Z, CONTROL)
+    assert row(room, "X+").progress.good == 2
+    room.key(Qt.Key.Key_Z, CONTROL | SHIFT)
+    assert row(room, "X+").progress.good == 1
+    room.press("undoTake")
+    room.press("redoTake")
+    assert row(room, "X+").progress.good == 1
+
+
+def test_undo_and_redo_say_what_they_would_do(room):
+    assert not room.button("undoTake").isEnabled()
+    room.press("startBatch")
+    room.run_until(lambda picture: picture.n_in_batch == 1)
+    assert room.bench.picture.undo in room.button("undoTake").toolTip()
+    assert room.button("undoTake").isEnabled()
+    assert not room.button("redoTake").isEnabled()
+
+
+def test_pause_and_go_on(room):
+    room.press("startBatch")
+    room.run_until(lambda picture: picture.phase is Phase.WAITING)
+    room.press("pauseBatch")
+    assert room.bench.picture.phase is Phase.PAUSED
+    assert room.button("pauseBatch").text() == "Go on"
+    room.key(Qt.Key.Key_Enter)
+    assert room.bench.picture.phase is Phase.COUNT_IN
+    room.press("pauseBatch")
+    room.press("pauseBatch")
+    assert room.bench.picture.phase is Phase.COUNT_IN
+    room.press("endBatch")
+    assert room.bench.picture.phase is Phase.IDLE
+    assert not room.button("endBatch").isEnabled()
+
+
+def test_the_marked_take_is_excluded_and_taken_in_again(room):
+    room.press("startBatch")
+    room.run_until(lambda picture: picture.n_in_batch == 2)
+    room.press("pauseBatch")
+    room.press("take_0")
+    room.press("excludeTake")
+    assert signs(room)[0] == "excluded"
+    assert row(room, "X+").progress.good == 1
+    assert room.button("excludeTake").text() == "Take in"
+    room.press("excludeTake")
+    assert row(room, "X+").progress.good == 2
+
+
+def test_the_marked_take_is_moved_to_another_gesture(room):
+    room.press("startBatch")
+    room.run_until(lambda picture: picture.n_in_batch == 1)
+    room.press("pauseBatch")
+    taken = strip(room).chosen
+    room.window.findChild(QAction, "moveTo_Z-").trigger()
+    room.run(0.01)
+    moved = [take.label for take in room.controls.takes() if take.id == taken.id]
+    assert moved == ["Z-"]
+
+
+def test_nothing_is_marked_before_the_first_take(room):
+    assert strip(room).chosen is None
+    assert not room.button("excludeTake").isEnabled()
+    assert not room.button("moveTake").isEnabled()
+    assert not room.button("redoLast").isEnabled()
+
+
+def test_a_lost_sensor_is_told_across_the_window_until_it_is_back(room):
+    room.press("startBatch")
+    room.run_until(lambda picture: picture.n_in_batch == 1)
+    bar = room.window.findChild(QLabel, "trainNotice")
+    assert not bar.isVisible()
+    room.bench.lose(Side.RIGHT)
+    room.run_until(lambda picture: picture.phase is Phase.SENSOR_LOST)
+    assert bar.isVisible()
+    assert "Right sensor lost" in bar.text()
+    assert "1 good take is kept" in bar.text()
+    room.bench.restore(Side.RIGHT)
+    room.run_until(lambda picture: picture.phase is Phase.COUNT_IN)
+    assert not bar.isVisible()
+
+
+def test_without_a_left_sensor_takes_go_by_the_beat(qtbot, cell, operator, tmp_path):
+    room = Room(cell, operator, tmp_path)
+    qtbot.addWidget(room.window)
+    room.bench.lose(Side.LEFT)
+    room.run(1.0)
+    room.record()
+    assert room.bench.picture.pace is Pace.RHYTHM
+    assert room.button("paceRhythm").isChecked()
+    room.window.close()
+    room.bench.desk.close()
+
+
+def test_beat_and_number_of_takes_are_set_by_hand(room):
+    room.press("paceRhythm")
+    beat = room.window.findChild(QDoubleSpinBox, "beatTime")
+    wanted = room.window.findChild(QSpinBox, "takesWanted")
+    beat.setValue(2.0)
+    beat.editingFinished.emit()
+    wanted.setValue(12)
+    wanted.editingFinished.emit()
+    room.run(0.05)
+    assert room.bench.picture.beat_s == 2.0
+    assert room.text("takeLabel") == "take 1 of 12"
+
+
+def test_the_level_of_the_hand_is_told_except_while_it_moves(room):
+    level = room.widget("recordLevel")
+    assert level.text == "Right hand: level"
+    room.press("startBatch")
+    room.run_until(lambda picture: picture.phase is Phase.TAKING)
+    assert level.text == "Right hand: moving"
+
+
+def test_when_all_takes_of_a_gesture_are_there_the_next_one_is_suggested(room):
+    room.controls.set_wanted(5)
+    room.run(0.05)
+    room.press("startBatch")
+    room.run_until(lambda picture: picture.phase is Phase.IDLE)
+    assert row(room, "X+").progress.good == 5
+    assert room.bench.picture.label == room.bench.picture.suggested != "X+"
+    room.press("record_X+")
+    assert room.text("takeLabel") == "5 of 5: done"
+    assert row(room, room.bench.picture.suggested).is_next
