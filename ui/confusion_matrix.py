@@ -4,8 +4,9 @@ from PySide6.QtCore import QEvent, QPointF, QRectF, QSize, Qt
 from PySide6.QtGui import QColor, QFont, QHelpEvent, QPainter, QPaintEvent
 from PySide6.QtWidgets import QSizePolicy, QToolTip, QWidget
 
+from gestureapp.guided.trying import NOT_RECOGNISED
 from gestureapp.recognition.evaluation import Evaluation
-from ui.model_words import NOT_RECOGNISED, share_words
+from ui.model_words import share_words
 from ui.theme import SMALL_PX, TEXT_PX, Colours, colours_of, mixed
 
 ROWS = "you did"

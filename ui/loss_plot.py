@@ -50,9 +50,9 @@ class LossPlot(QFrame):
         if newest == self._shown:
             return
         self._shown = newest
-        step = -(-len(losses) // _MOST_POINTS)
-        kept = [*losses[:: max(1, step)], losses[-1]] if losses else []
-        kept = [(n, loss) for n, loss in kept if loss > 0 and math.isfinite(loss)]
+        step = max(1, -(-len(losses) // _MOST_POINTS))
+        newest_first = losses[::-step]
+        kept = [(n, loss) for n, loss in newest_first[::-1] if loss > 0 and math.isfinite(loss)]
         passes, values = [n for n, _ in kept], [loss for _, loss in kept]
         self._curve.setData(passes, values)
         if kept:

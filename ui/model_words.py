@@ -5,11 +5,11 @@ from collections.abc import Sequence
 
 from gestureapp.gestures import gesture
 from gestureapp.guided.check import GestureCheck
+from gestureapp.guided.trying import NOT_RECOGNISED
 from gestureapp.guided.values import GestureProgress, Trying
 from gestureapp.recognition.evaluation import Evaluation
 from gestureapp.recognition.presets import MIN_TAKES, Preset
 
-NOT_RECOGNISED = "not recognised"
 PRESET_WORDS = {
     Preset.DEFAULT: "Default: several starts, each ended where unseen takes are heard best",
     Preset.PAPER: "As the paper: learning rate 0.25, 100,000 cycles; longer",

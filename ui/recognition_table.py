@@ -11,8 +11,9 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
+from gestureapp.guided.trying import NOT_RECOGNISED
 from gestureapp.recognition.evaluation import Evaluation
-from ui.model_words import NOT_RECOGNISED, gesture_words, share_words
+from ui.model_words import gesture_words, share_words
 
 HEADINGS = ("Gesture", "recognised", "wrong", NOT_RECOGNISED)
 ALL = "All"

@@ -46,9 +46,9 @@ class TrainingResultView(QWidget):
         if result is self._result:
             return
         self._result = result
-        first, *others = result.words or ("Trained.",)
-        self._judgement.setText(first)
-        self._advice.setText(" ".join(others))
+        judgement, _, others = " ".join(result.words).partition(". ")
+        self._judgement.setText(f"{judgement.rstrip('.')}.")
+        self._advice.setText(others)
         self._advice.setVisible(bool(others))
         evaluation = result.evaluation
         self._how.setText(
@@ -80,9 +80,7 @@ class _Facts(QFrame):
             label.deleteLater()
         self._labels = []
         took = ("from the press to the written model", f"{result.duration_s:.1f} s")
-        median, p95 = result.evaluation.decision_ms
-        decided = ("from the activation to the answer", f"{median:.0f} ms, 95 % in {p95:.0f} ms")
-        for row, fact in enumerate((*result.facts, took, decided)):
+        for row, fact in enumerate((*result.facts, took)):
             for column, text in enumerate(fact):
                 label = plain(f"fact_{row}_{column}", TEXT_PX)
                 label.setText(text)

@@ -4,12 +4,13 @@ from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QFrame, QHBoxLayout, QProgressBar, QPushButton, QVBoxLayout, QWidget
 
 from gestureapp.guided.controls import GuidedControls, TrainerControls
+from gestureapp.guided.trying import NOT_RECOGNISED
 from gestureapp.guided.values import GuidedSnapshot, TrainingView, Trying
 from ui.answer_mark import Answer, AnswerMark
 from ui.confusion_matrix import ConfusionMatrix
 from ui.gesture_drawing import GestureDrawing
 from ui.labels import BigWord, plain
-from ui.model_words import NOT_RECOGNISED, gesture_words, live_words, outcome_words
+from ui.model_words import gesture_words, live_words, outcome_words
 from ui.theme import LARGE_PX, SMALL_PX, sized
 
 _WORDS_PX = 26

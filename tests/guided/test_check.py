@@ -162,4 +162,6 @@ def test_the_map_shows_equal_takes_at_one_place_and_leaves_out_those_without_a_w
 
 def test_two_takes_are_as_far_apart_as_their_curves():
     level = wave(0.0)
-    assert distance_g(take(1, level), take(2, level + [0.3, 0.0, 0.4])) == pytest.approx(0.5)
+    assert distance_g(take(1, level), take(2, level + np.array([0.3, 0.0, 0.4]))) == pytest.approx(
+        0.5
+    )
