@@ -33,11 +33,20 @@ def child_environment() -> dict[str, str]:
     return {**os.environ, **one, "PYTHONPATH": os.pathsep.join(paths)}
 
 
-def start_beside(command: list[str]) -> subprocess.Popen[bytes]:
-    """Start a child that works when the cell leaves it the processor; its output is dropped."""
+def start_beside(command: list[str], *, is_spoken_with: bool = False) -> subprocess.Popen[bytes]:
+    """Start a child that works when the cell leaves it the processor.
+
+    Args:
+        command: What to start.
+        is_spoken_with: Its standard input and output are pipes; else its output is dropped.
+    """
     flags = getattr(subprocess, "BELOW_NORMAL_PRIORITY_CLASS", 0)
     child = subprocess.Popen(
-        command, env=child_environment(), stdout=subprocess.DEVNULL, creationflags=flags
+        command,
+        env=child_environment(),
+        stdin=subprocess.PIPE if is_spoken_with else None,
+        stdout=subprocess.PIPE if is_spoken_with else subprocess.DEVNULL,
+        creationflags=flags,
     )
     if hasattr(os, "setpriority"):
         with contextlib.suppress(ProcessLookupError):  # it has ended already

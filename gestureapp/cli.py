@@ -20,6 +20,8 @@ if TYPE_CHECKING:  # children start quickly only when nothing heavy is imported 
     from gestureapp.window_port import OpenWindow
 
 FINE, FAILED, USAGE = 0, 1, 2
+CHILDREN = (["guardian"], ["training-child"])
+"""Started by the application, by no person."""
 
 
 def main(
@@ -35,10 +37,8 @@ def main(
         show_refusal: Shows why the application did not start to somebody without a terminal.
     """
     arguments = sys.argv[1:] if arguments is None else arguments
-    if list(arguments) == ["guardian"]:  # must answer in a few hundredths of a second
-        from gestureapp.robot.guardian import main as guardian
-
-        return guardian()
+    if list(arguments) in CHILDREN:
+        return _child(*arguments)
     options = _parser(open_window is not None).parse_args(arguments)
     from gestureapp.errors import GestureAppError
 
@@ -65,6 +65,16 @@ def main(
         return FAILED
     except KeyboardInterrupt:
         return 130
+
+
+def _child(name: str) -> int:
+    if name == "guardian":  # must answer in a few hundredths of a second
+        from gestureapp.robot.guardian import main as guardian
+
+        return guardian()
+    from gestureapp.recognition.training_child import main as training_child
+
+    return training_child()
 
 
 def _refused(

@@ -17,6 +17,8 @@ from gestureapp.clock import monotonic
 from gestureapp.config import RobotSettings, Settings
 from gestureapp.errors import ConfigError, RobotInUse
 from gestureapp.guided.guided import Guided
+from gestureapp.guided.trained import find_own_model
+from gestureapp.guided.trainer import Trainer
 from gestureapp.recording.session_writer import SessionWriter
 from gestureapp.robot.lock import find_other
 from gestureapp.simulation.demo import DemoCell, DemoOptions
@@ -36,6 +38,7 @@ class RunningCell:
         demo: The emulators of a demo, or None.
         last_time: What the guardian did when no application could show it, or None.
         guided: Guided training, started; nobody's takes are open.
+        trainer: Trains the model of whoever is chosen there; started.
     """
 
     cell: Cell
@@ -44,6 +47,7 @@ class RunningCell:
     demo: DemoCell | None
     last_time: LastTime | None
     guided: Guided
+    trainer: Trainer
 
 
 def data_folder(chosen: Path | None = None) -> Path:
@@ -102,10 +106,15 @@ def running_cell(
         if last_time is not None:
             cell.tell(last_time.event)
         operator = emulators.operator if emulators is not None else None
+        if (own := find_own_model(folder, settings.person.name)) is not None:
+            cell.use_model(*own)
         guided = Guided(cell, folder)
         opened.callback(guided.shutdown)
         guided.start_thread()
-        yield RunningCell(cell, operator, recorder, emulators, last_time, guided)
+        trainer = Trainer(guided, folder, cell.use_model)
+        opened.callback(trainer.shutdown)
+        trainer.start_thread()
+        yield RunningCell(cell, operator, recorder, emulators, last_time, guided, trainer)
 
 
 def _refuse_second(robot: RobotSettings) -> None:
