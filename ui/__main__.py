@@ -20,6 +20,7 @@ def open_window(
         driver,
         running.last_time,
         running.guided,
+        running.trainer,
     )
 
 

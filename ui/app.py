@@ -69,7 +69,7 @@ def run_window(
         exit_after_s: Close the window by itself after this time, for unattended runs.
         driver: Uses the window as a person would, in a thread of its own.
         last_time: What the guardian did when no window could show it.
-        guided: Records and tries takes; without it there is no training.
+        guided: Records and tries takes; without it and a trainer there is no page for training.
         trainer: Trains the model.
 
     Returns:

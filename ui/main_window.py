@@ -66,10 +66,12 @@ class MainWindow(QMainWindow):
         self._bars = AlarmBars(clock)
         self._last_time = LastTimeBar()
         self._operate = OperatePage(cell, clock)
-        self._train = None if guided is None else TrainPage(cell, guided, trainer)
+        self._train = None
+        if guided is not None and trainer is not None:
+            self._train = TrainPage(cell, guided, trainer)
         self._notice = NoticeBar("trainNotice")
         self._pages = PageStack("pages")
-        self._rail = NavRail((Place.OPERATE,) if guided is None else tuple(Place))
+        self._rail = NavRail((Place.OPERATE,) if self._train is None else tuple(Place))
         self._slab = StopSlab()
         self._virtual = VirtualOperatorPanel(virtual) if virtual is not None else None
         self._lay_out()

@@ -1,7 +1,7 @@
 """What to do now, to be read from three metres: drawing, words, count-in, beat, how many."""
 
 from PySide6.QtCore import QRectF, Qt
-from PySide6.QtGui import QColor, QFont, QPainter, QPaintEvent, QPen, QResizeEvent
+from PySide6.QtGui import QColor, QFont, QFontMetrics, QPainter, QPaintEvent, QPen, QResizeEvent
 from PySide6.QtWidgets import QFrame, QHBoxLayout, QLabel, QSizePolicy, QVBoxLayout, QWidget
 
 from gestureapp.gestures import Kind, gesture
@@ -10,12 +10,13 @@ from ui.gesture_drawing import GestureDrawing
 from ui.labels import BigWord, plain
 from ui.operate_page import framed
 from ui.theme import LARGE_PX, colours_of, sized
-from ui.train_words import instruction, take_count
+from ui.train_words import instruction, last_verdict, take_count
 
 FLASH_S = 0.15
 """How long the frame is lit at a beat."""
 _LONGEST = "turn right"
 _FLASH_PX = 10
+_BAND_PX = 44
 
 
 class PromptView(QFrame):
@@ -35,6 +36,7 @@ class PromptView(QFrame):
         self._label = ""
         self.drawing = GestureDrawing()
         self.drawing.setMinimumSize(150, 120)
+        self._verdict = _VerdictBand(self.drawing)
         self._count = _CountIn(self.drawing)
         self._words = [BigWord(_LONGEST, 26, 110) for _ in range(2)]
         for i, word in enumerate(self._words):
@@ -66,6 +68,8 @@ class PromptView(QFrame):
             self._show_gesture(snapshot.label)
         _say(self._take, take_count(snapshot))
         _say(self._sentence, snapshot.sentence)
+        is_bad = bool(snapshot.batch) and not snapshot.batch[-1].counts
+        self._verdict.show_text(last_verdict(snapshot), is_bad=is_bad)
         self.count = str(snapshot.count_in) if snapshot.count_in else ""
         self._count.show_text(self.count)
         is_taking = snapshot.phase in (Phase.WAITING, Phase.TAKING)
@@ -142,6 +146,47 @@ class _CountIn(QWidget):
         painter.setFont(font)
         painter.setPen(QColor(colours.text))
         painter.drawText(self.rect(), Qt.AlignmentFlag.AlignCenter, self._text)
+        painter.end()
+
+
+class _VerdictBand(QWidget):
+    """What became of the last take, along the lower edge of the drawing."""
+
+    def __init__(self, under: QWidget) -> None:
+        super().__init__(under)
+        self.setObjectName("lastVerdict")
+        self.setAttribute(Qt.WidgetAttribute.WA_TransparentForMouseEvents)
+        self.text = ""
+        self._is_bad = False
+        self.hide()
+
+    def show_text(self, text: str, *, is_bad: bool) -> None:
+        """Show other words; empty ones hide the band."""
+        parent = self.parentWidget()
+        if text and parent is not None:
+            high = max(_BAND_PX, parent.height() // 5)
+            self.setGeometry(0, parent.height() - high, parent.width(), high)
+        if (text, is_bad) == (self.text, self._is_bad):
+            return
+        self.text, self._is_bad = text, is_bad
+        self.setAccessibleName(f"last take: {text}" if text else "")
+        self.setVisible(bool(text))
+        self.update()
+
+    def paintEvent(self, event: QPaintEvent) -> None:
+        """Draw the words as large as they fit in one line, else in two."""
+        painter = QPainter(self)
+        colours = colours_of(self.palette())
+        painter.fillRect(self.rect(), QColor(colours.base))
+        painter.setPen(QColor(colours.attention if self._is_bad else colours.text))
+        font = QFont(self.font())
+        font.setBold(True)
+        font.setPixelSize(round(self.height() * 0.62))
+        if QFontMetrics(font).horizontalAdvance(self.text) > self.width() - 16:
+            font.setPixelSize(round(self.height() * 0.38))
+        painter.setFont(font)
+        flags = Qt.AlignmentFlag.AlignCenter | Qt.TextFlag.TextWordWrap
+        painter.drawText(self.rect().adjusted(4, 0, -4, 0), flags, self.text)
         painter.end()
 
 

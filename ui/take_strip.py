@@ -9,7 +9,7 @@ from PySide6.QtWidgets import QAbstractButton, QHBoxLayout, QSizePolicy, QWidget
 
 from gestureapp.guided.values import Take
 from ui.theme import SMALL_PX, colours_of
-from ui.train_words import take_text, verdict_sign
+from ui.train_words import short_take_text, take_text, verdict_sign
 
 _LEAST_PX, _MOST_PX = 64, 110
 """Eight takes fit on a screen of 1280 pixels, and a batch of ten on a large one."""
@@ -73,11 +73,11 @@ class TakePicture(QAbstractButton):
         painter.setFont(self._font(20, is_bold=True))
         sign = QRectF(4, 2, 20, 22)
         painter.drawText(sign, Qt.AlignmentFlag.AlignCenter, verdict_sign(self.take))
-        painter.setFont(self._font(SMALL_PX - 1, is_bold=not counts))
+        painter.setFont(self._font(SMALL_PX - 1))
         below = _CURVE_PX + 3
         words = QRectF(3, below, self.width() - 6, _HEIGHT_PX - below - 3)
         flags = Qt.AlignmentFlag.AlignCenter | Qt.TextFlag.TextWordWrap
-        painter.drawText(words, flags, take_text(self.take))
+        painter.drawText(words, flags, short_take_text(self.take))
         painter.end()
 
     def _draw_curves(self, painter: QPainter, area: QRectF) -> None:

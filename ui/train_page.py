@@ -5,7 +5,7 @@ from PySide6.QtWidgets import QVBoxLayout, QWidget
 from gestureapp.cell.controls import CellControls
 from gestureapp.cell.snapshot import Snapshot
 from gestureapp.guided.controls import GuidedControls, TrainerControls
-from gestureapp.guided.values import GuidedSnapshot, Pace, Phase, TrainingView
+from gestureapp.guided.values import GuidedSnapshot, Pace, Phase
 from ui.check_step import CheckStep
 from ui.pages import PageStack
 from ui.person_step import PersonStep
@@ -30,7 +30,7 @@ class TrainPage(QWidget):
         self,
         cell: CellControls,
         guided: GuidedControls,
-        trainer: TrainerControls | None,
+        trainer: TrainerControls,
         parent: QWidget | None = None,
     ) -> None:
         super().__init__(parent)
@@ -50,11 +50,10 @@ class TrainPage(QWidget):
             Step.RECORD: self._record_step,
         }
         self._later_steps: dict[Step, CheckStep | TrainStep | TryStep] = {
-            Step.CHECK: CheckStep(guided)
+            Step.CHECK: CheckStep(guided),
+            Step.TRAIN: TrainStep(trainer),
+            Step.TRY: TryStep(guided, trainer),
         }
-        if trainer is not None:
-            self._later_steps[Step.TRAIN] = TrainStep(trainer)
-            self._later_steps[Step.TRY] = TryStep(guided, trainer)
         self._steps.update(self._later_steps)
         self._stack = PageStack("trainSteps")
         for widget in self._steps.values():
@@ -71,8 +70,7 @@ class TrainPage(QWidget):
     def show_snapshot(self, cell: Snapshot) -> None:
         """Show another moment of the cell and of the training."""
         guided = self.newest = self._guided.snapshot()
-        training = TrainingView() if self._trainer is None else self._trainer.view()
-        states = step_states(guided, training, cell)
+        states = step_states(guided, self._trainer.view(), cell)
         self._bar.show_states(states)
         if states[self.step].barrier:
             self.go_to(Step.PERSON)
@@ -92,8 +90,6 @@ class TrainPage(QWidget):
 
     def go_to(self, step: Step) -> None:
         """Show another step; a batch or a test under way is put on hold."""
-        if step not in self._steps:
-            return  # there is no trainer
         if step is not self.step:
             self.leave()
         if step is Step.PERSON:

@@ -21,6 +21,9 @@ from ui.marks import Level
 REST_STATES = (CellState.NOT_READY, CellState.READY, CellState.ARMED, CellState.STOPPED)
 """In these nothing moves; opening the training takes the permission back."""
 _SEEN = (Quality.FAIR, Quality.GOOD)
+_TELLING = (Phase.WAITING, Phase.TAKING, Phase.PAUSED, Phase.SENSOR_LOST)
+_SHORT = 14
+"""Letters of ``looks like RZ+``."""
 _RUNNING = (Phase.COUNT_IN, Phase.WAITING, Phase.TAKING, Phase.SENSOR_LOST)
 
 
@@ -170,8 +173,22 @@ def verdict_sign(take: Take) -> str:
 
 
 def take_text(take: Take) -> str:
-    """A take in a few words: its verdict, or that it was taken out."""
+    """A take in words: its verdict, or that it was taken out."""
     return "excluded" if take.is_excluded else take.judgement.words
+
+
+def short_take_text(take: Take) -> str:
+    """The same in at most two short lines, for a small picture."""
+    text = take_text(take)
+    return text if len(text) <= _SHORT else take.judgement.verdict.value
+
+
+def last_verdict(snapshot: GuidedSnapshot) -> str:
+    """What became of the batch's last take, with its sign; empty before the first."""
+    if not snapshot.batch or snapshot.phase not in _TELLING:
+        return ""
+    take = snapshot.batch[-1]
+    return f"{verdict_sign(take)}  {take_text(take)}"
 
 
 def pace_text(pace: Pace) -> str:

@@ -9,7 +9,7 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QAbstractButton, QApplication, QLabel, QLineEdit, QPushButton, QWidget
 
 from gestureapp.cell.snapshot import Blocker, CellState
-from tests.ui.sitting import Room
+from tests.ui.sitting import NoTrainer, Room
 from ui.main_window import MainWindow
 from ui.nav_rail import NavButton
 from ui.train_words import Step
@@ -140,7 +140,7 @@ def test_every_step_fits_without_clipping(qtbot, room, size):
     room.record()
     room.window.resize(*size)
     qtbot.waitUntil(lambda: (room.window.width(), room.window.height()) == size)
-    for step in STEPS[:3]:
+    for step in (*STEPS[:3], *STEPS[4:]):
         room.press(step)
         QApplication.processEvents()
         area = room.widget("workArea")
@@ -181,7 +181,7 @@ def test_going_away_puts_a_batch_on_hold(room):
 
 
 def test_a_window_without_a_virtual_operator_has_a_training_too(qtbot, cell, room):
-    window = MainWindow(cell, None, lambda: 0.0, room.controls)
+    window = MainWindow(cell, None, lambda: 0.0, room.controls, NoTrainer())
     qtbot.addWidget(window)
     assert window.findChild(QWidget, "navTrain") is not None
     window.close()

@@ -85,6 +85,29 @@ def test_a_batch_fills_the_ring_and_shows_each_take_with_its_verdict(room):
     assert room.button("stepRecord").state.text == "10 of 360"
 
 
+def test_the_verdict_on_the_last_take_stands_under_the_drawing(room):
+    band = room.widget("lastVerdict")
+    room.press("startBatch")
+    room.run_until(lambda picture: picture.n_in_batch == 1)
+    assert band.text == "\u2713  good"
+    assert band.isVisible()
+    room.bench.is_idle = True
+    room.press("pauseBatch")
+    room.press("endBatch")
+    assert not band.isVisible()
+
+
+def test_a_take_without_a_movement_is_told_and_does_not_count(room):
+    room.press("paceRhythm")
+    room.bench.is_idle = True
+    room.press("startBatch")
+    room.run_until(lambda picture: len(picture.batch) == 1)
+    assert "no movement" in room.widget("lastVerdict").text
+    assert signs(room) == ["no movement"]
+    assert row(room, "X+").progress.good == 0
+    assert room.text("takeLabel") == "take 1 of 30"
+
+
 def test_the_frame_is_lit_at_each_beat(room):
     room.press("paceRhythm")
     room.press("startBatch")
