@@ -93,6 +93,8 @@ def _refused(
 
 
 def _parser(has_window: bool) -> argparse.ArgumentParser:
+    from gestureapp import training_commands
+
     parser = argparse.ArgumentParser(
         prog="gestureapp",
         description="Arm gestures for a robot cell. Without a command: the application.",
@@ -103,7 +105,7 @@ def _parser(has_window: bool) -> argparse.ArgumentParser:
         _add_application(parser)
     commands = parser.add_subparsers(title="commands", metavar="COMMAND", required=not has_window)
     _add_simulate(commands)
-    _add_training(commands)
+    training_commands.add_commands(commands)
     _add_benchmark(commands)
     if has_window:
         _add_fault_subject(commands)
@@ -151,22 +153,6 @@ def _add_simulate(commands: "argparse._SubParsersAction[argparse.ArgumentParser]
     takes.add_argument("--session", type=int, default=1)
     takes.add_argument("--practised", action="store_true", help="trained operators")
     takes.set_defaults(run=_simulate_takes)
-
-
-def _add_training(commands: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
-    train = commands.add_parser("train", help="train a model from takes")
-    train.add_argument("takes", type=Path, metavar="TAKES.npz")
-    train.add_argument("-o", "--out", type=Path, required=True, metavar="MODEL.json")
-    train.add_argument("--preset", choices=("paper", "default"), default="default")
-    train.add_argument("--seed", type=_seed, default=0)
-    train.add_argument("--json", action="store_true")
-    train.set_defaults(run=_train)
-
-    evaluate = commands.add_parser("evaluate", help="what a model makes of takes")
-    evaluate.add_argument("model", type=Path, metavar="MODEL.json")
-    evaluate.add_argument("takes", type=Path, metavar="TAKES.npz")
-    evaluate.add_argument("--json", action="store_true")
-    evaluate.set_defaults(run=_evaluate)
 
 
 def _add_benchmark(commands: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
@@ -246,46 +232,6 @@ def _simulate_takes(options: argparse.Namespace) -> int:
     return FINE
 
 
-def _train(options: argparse.Namespace) -> int:
-    from gestureapp.recognition.model_file import save_model
-    from gestureapp.recognition.presets import Preset
-    from gestureapp.recognition.takes import load_takes
-    from gestureapp.recognition.training import train
-
-    takes = load_takes(options.takes)
-    _check_place(options.out)
-    is_shown = sys.stderr.isatty()
-
-    def progress(done: int, total: int, loss: float) -> None:
-        if is_shown:
-            sys.stderr.write(f"\r{done} of {total}, loss {loss:.5f} ")
-
-    model = train(
-        takes, Preset(options.preset), options.seed, progress, takes_from=str(options.takes)
-    )
-    save_model(options.out, model)
-    if is_shown:
-        sys.stderr.write("\n")
-    record = model.training
-    if options.json:
-        facts = {"model": str(options.out), "labels": list(model.labels)}
-        _write(json.dumps({**facts, "training": _plain_fields(record)}))
-    else:
-        _write(f"{options.out}: {record.n_takes} takes, loss {record.loss:.6f}")
-        _write(f"trained in {record.duration_s:.1f} s")
-    return FINE
-
-
-def _evaluate(options: argparse.Namespace) -> int:
-    from gestureapp.recognition.hearing import evaluate
-    from gestureapp.recognition.model_file import load_model
-    from gestureapp.recognition.takes import load_takes
-
-    evaluation = evaluate(load_model(options.model), load_takes(options.takes))
-    _write(json.dumps(evaluation.as_json()) if options.json else evaluation.as_table())
-    return FINE
-
-
 def _benchmark(options: argparse.Namespace, open_window: "OpenWindow | None") -> int:
     from gestureapp.benchmark import measure
 
@@ -311,24 +257,6 @@ def _fault_subject(options: argparse.Namespace, open_window: "OpenWindow | None"
     return run_subject(options.subject_config, options.folder, open_window)
 
 
-def _check_place(out: Path) -> None:
-    """A training takes its time: whether its model can be written is asked before.
-
-    Raises:
-        ModelError: there is no such folder, or the name is a folder's.
-    """
-    from gestureapp.errors import ModelError
-
-    if out.is_dir() or not out.parent.is_dir():
-        raise ModelError(out, "no file can be written there; name one in a folder that exists")
-
-
-def _seed(text: str) -> int:
-    if not (text.isascii() and text.isdigit() and int(text) < 1 << 32):
-        raise argparse.ArgumentTypeError(f"{text} is not a whole number from 0 to 4294967295")
-    return int(text)
-
-
 def _count(text: str) -> int:
     if not (text.isascii() and text.isdigit() and 0 < int(text) < 100_000):
         raise argparse.ArgumentTypeError(f"{text} is not a whole number from 1 to 99999")
@@ -343,12 +271,6 @@ def _seconds(text: str) -> float:
     if not 0 < value < 1e6:
         raise argparse.ArgumentTypeError(f"{text} is not a time in seconds above zero")
     return value
-
-
-def _plain_fields(value: object) -> dict[str, object]:
-    import dataclasses
-
-    return dataclasses.asdict(value)  # type: ignore[call-overload,no-any-return]
 
 
 def _write(text: str) -> None:

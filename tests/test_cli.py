@@ -7,6 +7,7 @@ import sys
 from collections.abc import Callable
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from gestureapp import cli
@@ -66,11 +67,56 @@ def test_the_json_forms_are_one_object(run: Run, takes: Path, tmp_path: Path):
     trained = json.loads(out)
     assert (code, trained["model"]) == (cli.FINE, str(model))
     assert trained["training"]["n_takes"] == 60
+    assert trained["cross_validation"]["n"] == 60
+    assert trained["cross_validation"]["folds"].startswith("by time: 5 blocks")
+    assert trained["left_out"] == 0
     assert len(trained["labels"]) == 12
     code, out, _ = run("evaluate", model, takes, "--json")
     evaluated = json.loads(out)
     assert (code, evaluated["n"]) == (cli.FINE, 60)
     assert sum(map(sum, evaluated["confusion"])) == 60
+    assert [len(row) for row in evaluated["confusion"]] == [13] * 12
+    shares = [evaluated[name] for name in ("recognised", "wrong", "rejected")]
+    assert sum(shares) == pytest.approx(1.0)
+    assert set(evaluated["per_gesture"]) == set(evaluated["labels"])
+    assert 0.0 < evaluated["decision_ms"]["median"] <= evaluated["decision_ms"]["p95"] < 250.0
+
+
+@pytest.mark.parametrize("labels", [("up", "down"), ("a", "b", "c", "d")])
+def test_other_gestures_at_another_rate_with_short_takes_are_trained_and_what_is_short_is_said(
+    run: Run, tmp_path: Path, labels: tuple[str, ...]
+):
+    rng = np.random.default_rng(4)
+    parts, names = [], []
+    for k, label in enumerate(labels):
+        for number in range(8):
+            parts.append(rng.normal([0.0, 0.0, 1.0], 0.03, (3 + 4 * number, 3)))
+            parts[-1][:, k % 3] += 1.0 if k < 3 else -1.0
+            names.append(label)
+    parts.append(np.ones((2, 3)))
+    path, model = tmp_path / "takes.npz", tmp_path / "model.json"
+    np.savez(
+        path,
+        samples=np.concatenate(parts),
+        offsets=np.cumsum([0, *map(len, parts)]),
+        labels=np.array([*names, labels[0]]),
+        rate_hz=np.array(50.0),
+    )
+
+    code, out, err = run("train", path, "-o", model, "--json")
+    assert code == cli.FINE
+    assert "1 take ends before the third sample" in one_line(err)
+    assert (json.loads(out)["left_out"], json.loads(out)["labels"]) == (1, sorted(labels))
+    code, out, err = run("evaluate", model, path, "--json")
+    assert code == cli.FINE
+    assert "1 take ends before the third sample" in one_line(err)
+    assert json.loads(out)["recognised"] > 0.9
+
+
+def test_takes_that_cannot_be_divided_as_asked_are_one_line(run: Run, takes: Path, tmp_path: Path):
+    code, _, err = run("train", takes, "-o", tmp_path / "m.json", "--folds", "session")
+    assert code == cli.FAILED
+    assert "all takes have the same session; divide by time" in one_line(err)
 
 
 def test_the_shipped_model_is_evaluated_on_a_fresh_day(run: Run, tmp_path: Path):
@@ -145,6 +191,7 @@ def test_where_a_model_is_to_go_is_looked_at_before_the_training(
         ("train", "x.npz", "-o", "y.json", "--seed", "-1"),
         ("train", "x.npz", "-o", "y.json", "--seed", "99999999999"),
         ("train", "x.npz", "-o", "y.json", "--preset", "best"),
+        ("train", "x.npz", "-o", "y.json", "--folds", "luck"),
         ("evaluate", "x.json"),
         ("simulate", "sensor", "--arm", "third", "--port", "0"),
         ("simulate", "sensor", "--arm", "left", "--port", "many"),
