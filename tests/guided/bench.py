@@ -57,6 +57,7 @@ class Bench:
         desk: What the guided thread would drive.
         silent: Sensors that send nothing.
         is_idle: The person does nothing.
+        slips: By the number of the answer, from 0, how it is done instead of what was asked.
     """
 
     def __init__(self, data: Path, person: Person | None = None, settings: Settings | None = None):
@@ -67,6 +68,8 @@ class Bench:
         self.left = LeftArm(self.person, 1)
         self.silent: set[Side] = set()
         self.is_idle = False
+        self.slips: dict[int, Callable[[str, float], None]] = {}
+        self.n_answers = 0
         self._rng = np.random.default_rng(1)
         self._seq = 0
         self._seen_after_s = start_seen_after_s(self.person)
@@ -124,7 +127,12 @@ class Bench:
 
     def perform(self, label: str, activation_s: float) -> None:
         """What the person does with the right arm for an activation at this time."""
-        self.right.perform_for(label, activation_s)
+        slip = self.slips.get(self.n_answers, self.right.perform_for)
+        self.n_answers += 1
+        slip(label, activation_s)
+
+    def rest(self, label: str, activation_s: float) -> None:
+        """Nothing, whatever is asked."""
 
     def asked(self, picture: GuidedSnapshot) -> str:
         return picture.trying.asked or picture.label
