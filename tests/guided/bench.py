@@ -23,6 +23,7 @@ from gestureapp.simulation.arm import LeftArm, RightArm, start_seen_after_s
 from gestureapp.simulation.people import Person, practised_person
 
 RATE_HZ = 100.0
+LOOK_TICKS = 4
 WALL_S = 1_800_000_000.0
 
 
@@ -72,6 +73,7 @@ class Bench:
         self.n_answers = 0
         self._rng = np.random.default_rng(1)
         self._seq = 0
+        self._ahead: list[tuple[list[float], list[float]]] = []
         self._seen_after_s = start_seen_after_s(self.person)
         self._answered_s = 0.0
         self._lower_s = np.inf
@@ -117,12 +119,16 @@ class Bench:
         self.run_until(lambda picture: picture.phase is Phase.IDLE)
 
     def tick(self) -> None:
+        """One sample of each arm; the person looks up every ``LOOK_TICKS`` of them."""
+        if not self._ahead:
+            if not self.is_idle:
+                self._follow(self.picture)
+            self._ahead = self._next_readings()
         self.now_s += 1.0 / RATE_HZ
         self.arms.now_s = self.now_s
-        if not self.is_idle:
-            self._follow(self.picture)
-        self._send(Side.LEFT, self.arms.left, self.left, self.person.left_sensor)
-        self._send(Side.RIGHT, self.arms.right, self.right, self.person.right_sensor)
+        left_g, right_g = self._ahead.pop(0)
+        self._send(Side.LEFT, self.arms.left, left_g)
+        self._send(Side.RIGHT, self.arms.right, right_g)
         self.desk.step()
 
     def perform(self, label: str, activation_s: float) -> None:
@@ -148,7 +154,7 @@ class Bench:
             return
         lead_s = self.right.lead_s(label)
         if np.isfinite(picture.next_beat_s):
-            if picture.next_beat_s - self.now_s <= lead_s + 0.05:
+            if picture.next_beat_s - self.now_s <= lead_s + 0.1:
                 self._answer(label, picture.next_beat_s)
         elif self._is_wanted(picture) and self.now_s > self._answered_s + 1.6:
             wait_s = max(lead_s, self._seen_after_s) + 0.3
@@ -165,11 +171,21 @@ class Bench:
             self._lower_s = activation_s + 0.6
             self.perform(label, activation_s)
 
-    def _send(self, side: Side, store: SampleStore, arm, sensor) -> None:
-        x, y, z = sensor.read(np.array(arm.accel_g(self.now_s)), self._rng).tolist()
+    def _next_readings(self) -> list[tuple[list[float], list[float]]]:
+        """What both sensors read until the person looks up again, left and right."""
+        times_s = self.now_s + np.arange(1, LOOK_TICKS + 1) / RATE_HZ
+        person, rng = self.person, self._rng
+        for arm in (self.left, self.right):
+            arm.accel_g(self.now_s)  # lets it forget what is long over
+        left_g = person.left_sensor.read(self.left.accel_at(times_s), rng)
+        right_g = person.right_sensor.read(self.right.accel_at(times_s), rng)
+        return list(zip(left_g.tolist(), right_g.tolist(), strict=True))
+
+    def _send(self, side: Side, store: SampleStore, accel_g: list[float]) -> None:
         if side in self.silent:
             return
         self._seq += 1
+        x, y, z = accel_g
         sample = Sample(self.now_s, self._seq, (x, y, z))
         store.append(sample)
         self.arms.trackers[side].sample(sample)

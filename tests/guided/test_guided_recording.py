@@ -59,10 +59,10 @@ def test_a_batch_hands_free_takes_ten_by_the_left_arm(bench):
 @pytest.mark.parametrize("pace", list(Pace))
 def test_all_twelve_gestures_are_recorded_in_the_suggested_order(tmp_path, pace):
     """An ordinary person, whose takes are not all good: the batches go on until enough are."""
-    settings = Settings(training=TrainingSettings(n_takes=6))
+    settings = Settings(training=TrainingSettings(n_takes=5))
     bench = Bench(tmp_path, draw_person(5, 1), settings)
     bench.desk.open("Ana")
-    bench.desk.set_pace(pace, 2.5)
+    bench.desk.set_pace(pace, 2.0)
     labels = []
     while bench.picture.suggested:
         labels.append(bench.picture.label)
@@ -73,11 +73,11 @@ def test_all_twelve_gestures_are_recorded_in_the_suggested_order(tmp_path, pace)
     assert labels == list(SUGGESTED)
     assert sorted(labels) == sorted(LABELS)
     bench.desk.open("Ana")
-    assert [progress.good for progress in bench.picture.progress] == [6] * 12
+    assert [progress.good for progress in bench.picture.progress] == [5] * 12
     assert all(progress.quality is not Quality.FEW for progress in bench.picture.progress)
     assert bench.picture.sentence == "All takes are there: look at them, then train."
     counting = to_take_set(bench.desk.takes, "Ana")
-    assert len(counting) == 72
+    assert len(counting) == 60
     assert len(set(counting.session)) == 1
     bench.desk.close()
 
