@@ -151,6 +151,8 @@ def _add_simulate(commands: "argparse._SubParsersAction[argparse.ArgumentParser]
     takes.add_argument("--takes", type=int, default=30)
     takes.add_argument("--seed", type=int, default=0)
     takes.add_argument("--session", type=int, default=1)
+    takes.add_argument("--rate-hz", type=float, default=100.0, help="20 to 1000")
+    takes.add_argument("--gestures", metavar="X+,X-,…", help="only these, in this order")
     takes.add_argument("--practised", action="store_true", help="trained operators")
     takes.set_defaults(run=_simulate_takes)
 
@@ -213,6 +215,7 @@ def _simulate_sensor(options: argparse.Namespace) -> int:
 
 
 def _simulate_takes(options: argparse.Namespace) -> int:
+    from gestureapp.gestures import LABELS
     from gestureapp.recognition.takes import save_takes
     from gestureapp.simulation.takes import make_takes
 
@@ -222,7 +225,9 @@ def _simulate_takes(options: argparse.Namespace) -> int:
             options.takes,
             options.seed,
             options.session,
-            practised=options.practised,
+            options.rate_hz,
+            options.practised,
+            LABELS if options.gestures is None else options.gestures.split(","),
         )
     except ValueError as error:
         sys.stderr.write(f"gestureapp: {error}\n")

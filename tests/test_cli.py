@@ -12,6 +12,7 @@ import pytest
 
 from gestureapp import cli
 from gestureapp.children import child_command, child_environment
+from gestureapp.recognition.takes import load_takes
 from gestureapp.running import RunningCell
 from gestureapp.simulation.demo import MODEL
 
@@ -48,6 +49,16 @@ def one_line(err: str) -> str:
     assert line.startswith("gestureapp: ")
     assert "Traceback" not in line
     return line
+
+
+def test_takes_of_some_gestures_at_another_rate_are_made(run: Run, tmp_path: Path):
+    path = tmp_path / "some.npz"
+    asked = ("--gestures", "RZ-,X+", "--rate-hz", "50", "--takes", "2")
+    code, _, err = run("simulate", "takes", path, *asked)
+    assert (code, err) == (cli.FINE, "")
+    takes = load_takes(path)
+    assert takes.labels == ("RZ-", "RZ-", "X+", "X+")
+    assert (takes.rate_hz, len(takes.samples)) == (50.0, 4 * 75)
 
 
 def test_takes_are_trained_and_evaluated(run: Run, takes: Path, tmp_path: Path):

@@ -1,6 +1,6 @@
 """What an ADXL330 makes of a true specific force: offset, gain error, noise, saturation. Pure.
 
-Quantisation belongs to the protocol that carries the reading.
+A line of the ``adxl330`` protocol can carry whole counts only; ``quantised`` gives what arrives.
 """
 
 from dataclasses import dataclass
@@ -8,7 +8,16 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from gestureapp.simulation.sensor_wire import (
+    ADXL330_STEPS,
+    ADXL330_SUPPLY_V,
+    ADXL330_V_PER_G,
+)
+
 F64 = NDArray[np.float64]
+
+COUNTS_PER_G = ADXL330_V_PER_G * ADXL330_STEPS / ADXL330_SUPPLY_V
+"""102.4."""
 
 NOISE_G_SQRT_HZ = (280e-6, 280e-6, 350e-6)
 """Noise density of X, Y and Z in g per root hertz. Source: ADXL330 data sheet rev. A, table 1."""
@@ -19,8 +28,8 @@ GAIN_LIMIT = 0.10
 GAIN_SPREAD = 0.04
 """Standard deviation assumed for parts inside that limit."""
 OFFSET_SPREAD_G = 0.02
-"""What is left of the zero-g bias (1.35 to 1.65 V in the data sheet, 0.5 g) after the supply's own
-zero adjustment; 1 mg/K of drift alone makes 20 mg between a cold and a warm room."""
+"""What is left of the zero-g bias of a part, some tenths of a volt at 0.3 V/g, after it has been
+zeroed: 1 mg/K of drift (data sheet) makes 20 mg between a cold and a warm room."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -49,6 +58,12 @@ class Accelerometer:
     def _scaled(self, accel_g: F64) -> F64:
         scaled: F64 = accel_g * np.array(self.gain) + np.array(self.offset_g)
         return scaled
+
+
+def quantised(accel_g: F64) -> F64:
+    """Readings as the 10-bit converter behind the sensor gives them: in steps of 9.8 mg."""
+    rounded: F64 = np.rint(accel_g * COUNTS_PER_G) / COUNTS_PER_G
+    return rounded
 
 
 def adxl330(rng: np.random.Generator, bandwidth_hz: float = 50.0) -> Accelerometer:

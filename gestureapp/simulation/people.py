@@ -8,8 +8,12 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from gestureapp.simulation.accelerometer import Accelerometer, adxl330
+from gestureapp.simulation.worn import SENSOR_BEFORE_WRIST_M
 
 Triple = tuple[float, float, float]
+
+WRIST_SHARE = (0.1, 0.4)
+"""Share of a turn about Z that comes from the wrist, from person to person."""
 
 _DRAW_PERSON = 1
 _DRAW_DAY = 2
@@ -29,7 +33,8 @@ class Person:
         duration_s: Duration of a movement.
         forearm_m: Elbow to sensor; the hand rises and sinks on an arc of this radius.
         wrist_keeps_level: Share of the forearm's swing that the wrist takes back, 0 to 1.
-        yaw_radius_m: From the axis of a turn about Z (between wrist and elbow) to the sensor.
+        yaw_radius_m: From the axis of a turn about Z (between elbow and wrist, see
+            ``draw_person``) to the sensor.
         yaw_rad: Angle of a turn about Z.
         yaw_s: Duration of it.
         turn_rad: Angle of a turn about X or Y; few people reach a right angle.
@@ -100,6 +105,13 @@ def draw_person(seed: int, index: int = 0, session: int = 1) -> Person:
     and duration (quick gestures of a hand's length or two, whose acceleration peaks at 0.4 to 1.6
     g), and tilts, skews and straps of a few degrees (what an elastic strap and a person without a
     spirit level allow).
+
+    Turns about Z: a wrist turns a flat hand by some 20 degrees to the thumb's side and 35 to the
+    other (Boone and Azen, Normal range of motion of joints in male subjects, J. Bone Joint Surg.
+    61-A (1979) 756), so most of 45 to 75 degrees is the forearm swung sideways about the elbow, by
+    turning the upper arm. With a share w from the wrist, the sensor moves as on a circle of radius
+    (1 - w) forearm + w (sensor before wrist): 0.2 to 0.35 m. As the whole forearm moves, it takes
+    0.42 to 0.62 s (assumed; the peak at the sensor is then like that of a movement).
     """
     return _on_day(_draw_habit(seed, index, session), 1.0)
 
@@ -108,8 +120,9 @@ def practised_person(seed: int, index: int = 0, session: int = 1) -> Person:
     """A trained operator: as ``draw_person``, but quick, straight, level and in time.
 
     The right arm starts a little before the activation and within about 6 ms of its habit; a turn
-    about Z comes from the wrist, so it is clearly weaker than a movement to the side; the sensors
-    sit where they were fixed with care and have been calibrated. For the demonstration.
+    about Z is made on the spot, the elbow giving way to the outside, so that its axis stands close
+    to the wrist and it is clearly weaker than a movement to the side; the sensors sit where they
+    were fixed with care and have been calibrated. For the demonstration.
     """
     rng = np.random.default_rng([seed, index, _DRAW_PRACTISED])
     uniform, normal = rng.uniform, rng.normal
@@ -154,18 +167,22 @@ def draw_people(count: int, seed: int, session: int = 1) -> tuple[Person, ...]:
 def _draw_habit(seed: int, index: int, session: int) -> Person:
     rng = np.random.default_rng([seed, index, _DRAW_PERSON])
     uniform, normal = rng.uniform, rng.normal
+    # In the order of the attributes: what is drawn later stays the same.
+    reach_m = (uniform(0.20, 0.35), uniform(0.20, 0.35), uniform(0.16, 0.30))
+    duration_s = uniform(0.36, 0.56)
+    forearm_m = uniform(0.30, 0.38)
     return Person(
         name=f"p{index + 1}",
         seed=seed,
         index=index,
         session=session,
-        reach_m=(uniform(0.20, 0.35), uniform(0.20, 0.35), uniform(0.16, 0.30)),
-        duration_s=uniform(0.36, 0.56),
-        forearm_m=uniform(0.30, 0.38),
+        reach_m=reach_m,
+        duration_s=duration_s,
+        forearm_m=forearm_m,
         wrist_keeps_level=uniform(0.6, 0.9),
-        yaw_radius_m=uniform(0.09, 0.18),
+        yaw_radius_m=_yaw_radius_m(forearm_m, uniform(*WRIST_SHARE)),
         yaw_rad=np.radians(uniform(45.0, 75.0)),
-        yaw_s=uniform(0.34, 0.52),
+        yaw_s=uniform(0.42, 0.62),
         turn_rad=np.radians(uniform(70.0, 90.0)),
         turn_s=uniform(0.30, 0.45),
         bank=normal(0.0, 0.12),
@@ -188,6 +205,11 @@ def _draw_habit(seed: int, index: int, session: int) -> Person:
         right_sensor=adxl330(rng),
         left_sensor=adxl330(rng),
     )
+
+
+def _yaw_radius_m(forearm_m: float, wrist_share: float) -> float:
+    """From the axis of a turn about Z to the sensor, when the wrist makes this share of it."""
+    return (1.0 - wrist_share) * forearm_m + wrist_share * SENSOR_BEFORE_WRIST_M
 
 
 def _on_day(person: Person, scale: float) -> Person:

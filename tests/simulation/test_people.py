@@ -56,6 +56,29 @@ def test_everybody_could_exist(seed, index, session):
     assert 0.9 <= min(person.right_sensor.gain) <= max(person.right_sensor.gain) <= 1.1
 
 
+def peak_g(length_m: float, duration_s: float) -> float:
+    """Of a minimum-jerk movement."""
+    return 10.0 / np.sqrt(3.0) * length_m / duration_s**2 / 9.80665
+
+
+@settings(max_examples=50, deadline=None)
+@given(st.integers(0, 2**32), st.integers(0, 50))
+def test_everybody_is_as_quick_as_hands_are_and_within_the_sensors_range(seed, index):
+    person = draw_person(seed, index)
+
+    assert all(0.3 < peak_g(reach, person.duration_s) < 2.0 for reach in person.reach_m)
+    assert 0.1 < peak_g(person.yaw_radius_m * person.yaw_rad, person.yaw_s) < 2.0
+
+
+@settings(max_examples=50, deadline=None)
+@given(st.integers(0, 2**32), st.integers(0, 50))
+def test_ordinary_people_turn_about_z_mostly_from_the_elbow(seed, index):
+    person = draw_person(seed, index)
+
+    assert 0.6 * person.forearm_m < person.yaw_radius_m < person.forearm_m
+    assert practised_person(seed, index).yaw_radius_m < 0.1
+
+
 @settings(max_examples=20, deadline=None)
 @given(st.integers(0, 2**32))
 def test_a_practised_person_is_steadier_than_anybody(seed):

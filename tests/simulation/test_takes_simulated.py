@@ -44,6 +44,26 @@ def test_the_same_call_gives_the_same_takes_and_another_session_fresh_ones():
     assert first.fingerprint() != other_day.fingerprint()
 
 
+def test_only_the_gestures_asked_for_are_made_by_the_same_people():
+    four = make_takes(2, 3, seed=4, gestures=["Y-", "X+", "RX+", "RZ-"])
+
+    assert four.labels[::3] == ("Y-", "X+", "RX+", "RZ-") * 2
+    assert set(four.user) == {"p1", "p2"}
+
+
+@pytest.mark.parametrize("wrong", [[], ["X+", "X+"], ["X+", "W+"]])
+def test_gestures_that_make_no_sense_are_refused_by_name(wrong):
+    with pytest.raises(ValueError, match=r"gestures must be some of X\+"):
+        make_takes(1, 1, seed=4, gestures=wrong)
+
+
+def test_readings_come_in_the_steps_of_a_10_bit_converter():
+    counts = make_takes(1, 2, seed=4).samples * 102.4
+
+    assert np.allclose(counts, np.rint(counts), atol=1e-9)
+    assert len(np.unique(np.rint(counts))) > 100
+
+
 def test_the_hand_rests_before_and_moves_after_the_activation():
     takes = make_takes(1, 5, seed=4, practised=True)
 
