@@ -123,9 +123,7 @@ class ConfusionMatrix(QWidget):
         last = self._cell(0, len(labels))
         head = QRectF(last.left() - 4, area.top() - _HEAD_PX - 14, last.width() + 8, _HEAD_PX + 14)
         painter.setFont(self._font(SMALL_PX))
-        painter.drawText(
-            head, Qt.AlignmentFlag.AlignCenter | Qt.TextFlag.TextWordWrap, "not recog."
-        )
+        painter.drawText(head, Qt.AlignmentFlag.AlignCenter, NOT_RECOGNISED.replace(" ", "\n"))
 
     def _draw_cell(self, painter: QPainter, colours: Colours, row: int, column: int) -> None:
         assert self._evaluation is not None

@@ -124,12 +124,13 @@ class TakeActions(QWidget):
         layout = QGridLayout(self)
         layout.setContentsMargins(0, 0, 0, 0)
         layout.setSpacing(4)
+        self._undo_words.setMinimumHeight(self._undo_words.fontMetrics().lineSpacing())
         layout.addWidget(self._exclude, 0, 0)
         layout.addWidget(self._move, 0, 1)
         layout.addWidget(self._delete, 0, 2)
         layout.addWidget(self._undo, 1, 0)
         layout.addWidget(self._redo, 1, 1)
-        layout.addWidget(self._undo_words, 1, 2)
+        layout.addWidget(self._undo_words, 2, 0, 1, 3)
         for column in range(3):
             layout.setColumnStretch(column, 1)
 

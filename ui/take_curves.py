@@ -27,9 +27,9 @@ SHOWN_AT_ONCE = 2
 class CurveLegend(QWidget):
     """What each kind of line means."""
 
-    _ENTRIES = ("median", "eight of ten", "odd", "does not count", "chosen", "compared")
-    _LINE_PX = 20
-    _GAP_PX = 14
+    _ENTRIES = ("median", "8 of 10", "odd", "not counted", "chosen", "compared")
+    _LINE_PX = 18
+    _GAP_PX = 10
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
@@ -208,4 +208,5 @@ def _range_g(curves: F64) -> tuple[float, float]:
 
 
 def _whole(low: float, high: float) -> range:
-    return range(math.ceil(low), math.floor(high) + 1)
+    """Whole numbers between, without the edges: a mark there would be cut."""
+    return range(math.floor(low) + 1, math.ceil(high))

@@ -15,7 +15,7 @@ from ui.theme import colours_of
 from ui.train_words import take_text
 
 HEADINGS = ("Take", "Verdict", "From the median")
-_TAKE_PX, _FAR_PX = 46, 158
+_TAKE_PX, _FAR_PX = 40, 156
 
 
 class TakeList(QTableWidget):

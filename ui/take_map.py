@@ -150,8 +150,8 @@ class TakeMapView(QWidget):
         self._legend.show_labels(labels)
         shown = f"{100 * sum(take_map.shares):.0f} %"
         self._title.setText(
-            f"{len(take_map.ids)} takes, alike ones lie together "
-            f"({shown} of their difference). Click to choose one."
+            f"All {len(take_map.ids)} takes, alike ones together "
+            f"({shown} of their difference). Click one."
         )
         self._plot.setAccessibleName(f"Map of the takes. {self._title.text()}")
         self._make_items(labels)

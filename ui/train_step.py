@@ -14,7 +14,7 @@ from PySide6.QtWidgets import (
 from gestureapp.guided.controls import TrainerControls
 from gestureapp.guided.values import GuidedSnapshot, TrainingPhase, TrainingView
 from gestureapp.recognition.presets import Preset
-from ui.fold import Fold
+from ui.fold import FoldButton
 from ui.labels import plain
 from ui.loss_plot import LossPlot
 from ui.marks import Level, Mark
@@ -141,7 +141,8 @@ class TrainStep(QWidget):
         top.addWidget(self._cancel)
         top.addWidget(self._mark)
         top.addWidget(self._text, 1)
-        top.addWidget(Fold("presetFold", "More", self._preset_chooser()))
+        chooser = self._preset_chooser()
+        top.addWidget(FoldButton("presetFold", "More", chooser))
         old = QHBoxLayout()
         old.addWidget(self._old_mark, 0, Qt.AlignmentFlag.AlignTop)
         old.addWidget(self._old, 1)
@@ -150,6 +151,7 @@ class TrainStep(QWidget):
         layout.setContentsMargins(12, 8, 12, 8)
         layout.setSpacing(8)
         layout.addLayout(top)
+        layout.addWidget(chooser)
         layout.addLayout(old)
         layout.addWidget(self._progress)
         layout.addWidget(self._loss, 1)

@@ -5,7 +5,7 @@ from PySide6.QtWidgets import QFrame, QGridLayout, QHBoxLayout, QLabel, QVBoxLay
 
 from gestureapp.guided.values import TrainingResult
 from ui.confusion_matrix import ConfusionMatrix
-from ui.fold import Fold
+from ui.fold import FoldButton
 from ui.labels import plain
 from ui.recognition_table import RecognitionTable
 from ui.theme import LARGE_PX, SMALL_PX, TEXT_PX, sized
@@ -27,8 +27,9 @@ class TrainingResultView(QWidget):
         self._table = RecognitionTable()
         self._matrix = ConfusionMatrix("resultMatrix")
         self._facts = _Facts()
-        fold = Fold("technicalFold", "Technical part", self._facts)
-        figures = QHBoxLayout()
+        shown = QWidget()
+        figures = QHBoxLayout(shown)
+        figures.setContentsMargins(0, 0, 0, 0)
         figures.setSpacing(14)
         figures.addWidget(self._table, 2)
         figures.addWidget(self._matrix, 3)
@@ -38,8 +39,9 @@ class TrainingResultView(QWidget):
         layout.addWidget(self._judgement)
         layout.addWidget(self._advice)
         layout.addWidget(self._how)
-        layout.addLayout(figures, 1)
-        layout.addWidget(fold)
+        layout.addWidget(shown, 1)
+        layout.addWidget(self._facts, 1)
+        layout.addWidget(FoldButton("technicalFold", "Technical part", self._facts, shown))
 
     def show_result(self, result: TrainingResult) -> None:
         """Show another result."""
@@ -82,8 +84,10 @@ class _Facts(QFrame):
         took = ("from the press to the written model", f"{result.duration_s:.1f} s")
         for row, fact in enumerate((*result.facts, took)):
             for column, text in enumerate(fact):
-                label = plain(f"fact_{row}_{column}", TEXT_PX)
+                label = plain(f"fact_{row}_{column}", TEXT_PX, is_wrapped=column > 0)
                 label.setText(text)
                 label.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
                 self._grid.addWidget(label, row, column, Qt.AlignmentFlag.AlignTop)
                 self._labels.append(label)
+            self._grid.setRowStretch(row, 0)
+        self._grid.setRowStretch(len(result.facts) + 1, 1)
