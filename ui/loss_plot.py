@@ -58,7 +58,7 @@ class LossPlot(QFrame):
         if kept:
             low = math.floor(math.log10(min(values)))
             high = max(low + 1, math.ceil(math.log10(max(values))))
-            across = (0, max(1, passes[-1]))
+            across = (passes[0], max(passes[0] + 1, passes[-1]))
             self._plot.getPlotItem().setRange(xRange=across, yRange=(low, high), padding=0.02)
             ticks(self._plot, "left", _marks(low, high))
             self._plot.setAccessibleName(f"Loss {values[-1]:.2g} after {passes[-1]} passes")

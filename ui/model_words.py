@@ -5,10 +5,11 @@ from collections.abc import Sequence
 
 from gestureapp.gestures import gesture
 from gestureapp.guided.check import GestureCheck
+from gestureapp.guided.trained_words import missing_words
 from gestureapp.guided.trying import NOT_RECOGNISED
 from gestureapp.guided.values import GestureProgress, Trying
 from gestureapp.recognition.evaluation import Evaluation
-from gestureapp.recognition.presets import MIN_TAKES, Preset
+from gestureapp.recognition.presets import Preset
 
 PRESET_WORDS = {
     Preset.DEFAULT: "Default: several starts, each ended where unseen takes are heard best",
@@ -25,21 +26,22 @@ def gesture_words(label: str) -> str:
         return ""
 
 
-def missing_words(progress: Sequence[GestureProgress], least: int = MIN_TAKES) -> str:
-    """What stands against training: ``Z- has 3 takes: at least 5 are needed``; empty when nothing.
+def sentence(text: str) -> str:
+    """A text with a capital first letter, as it stands on the screen."""
+    return text[:1].upper() + text[1:]
 
-    Args:
-        progress: Of every gesture.
-        least: How many takes each needs.
-    """
-    if not any(each.good for each in progress):
-        return f"No takes yet: record at least {least} of each gesture."
-    few = [each for each in progress if each.good < least]
-    if not few:
-        return ""
-    some = [f"{each.label} has {each.good or 'no'} {_takes(each.good)}" for each in few[:3]]
-    more = f" and {len(few) - 3} more gestures have too few" if len(few) > 3 else ""
-    return f"{', '.join(some)}{more}: at least {least} of each are needed."
+
+def missing_for_training(progress: Sequence[GestureProgress]) -> str:
+    """What stands against training; empty when nothing does."""
+    return sentence(missing_words(each.label for each in progress for _ in range(each.good)))
+
+
+def ready_words(progress: Sequence[GestureProgress]) -> str:
+    """What a training would be from, and which gestures the model would not know."""
+    known = [each for each in progress if each.good]
+    words = f"{sum(each.good for each in known)} takes of {len(known)} gestures count."
+    unknown = ", ".join(each.label for each in progress if not each.good)
+    return f"{words} The model will not know {unknown}: no takes." if unknown else words
 
 
 def remaining_words(remaining_s: float) -> str:

@@ -18,7 +18,13 @@ from ui.fold import FoldButton
 from ui.labels import plain
 from ui.loss_plot import LossPlot
 from ui.marks import Level, Mark
-from ui.model_words import PRESET_WORDS, missing_words, remaining_words
+from ui.model_words import (
+    PRESET_WORDS,
+    missing_for_training,
+    ready_words,
+    remaining_words,
+    sentence,
+)
 from ui.theme import LARGE_PX, TEXT_PX, sized
 from ui.training_result import TrainingResultView
 
@@ -73,7 +79,9 @@ class TrainStep(QWidget):
             return
         view = self._trainer.view()
         is_running = view.phase is TrainingPhase.RUNNING
-        missing = missing_words(snapshot.progress) if snapshot.person else "Choose a person first."
+        missing = "Choose a person first."
+        if snapshot.person:
+            missing = missing_for_training(snapshot.progress)
         self._train.setEnabled(not is_running and not missing)
         self._train.setText("Train again" if view.result is not None else "Train")
         self._train.setAccessibleName(missing or "Train the model from the takes that count")
@@ -82,7 +90,7 @@ class TrainStep(QWidget):
             button.setEnabled(not is_running)
         self._show_text(view, missing, snapshot)
         self._show_progress(view)
-        self._old.setText(view.out_of_date)
+        self._old.setText(sentence(view.out_of_date))
         for widget in (self._old, self._old_mark):
             widget.setVisible(bool(view.out_of_date) and not is_running)
         self._result.setVisible(view.result is not None and not is_running)
@@ -91,15 +99,14 @@ class TrainStep(QWidget):
             self._result.show_result(view.result)
 
     def _show_text(self, view: TrainingView, missing: str, snapshot: GuidedSnapshot) -> None:
-        n_takes = sum(each.good for each in snapshot.progress)
-        ready = f"{n_takes} takes of {len(snapshot.progress)} gestures count."
         if view.phase is TrainingPhase.RUNNING:
             text, level = view.text, Level.BUSY
         elif missing:
             text, level = missing, Level.ATTENTION
         else:
-            text, level = view.text or ready, _LEVELS.get(view.phase, Level.OFF)
-        self._text.setText(text)
+            text = view.text or ready_words(snapshot.progress)
+            level = _LEVELS.get(view.phase, Level.OFF)
+        self._text.setText(sentence(text))
         self._mark.show_level(level)
 
     def _show_progress(self, view: TrainingView) -> None:
@@ -131,7 +138,7 @@ class TrainStep(QWidget):
             button.setChecked(preset is Preset.DEFAULT)
             sized(button, TEXT_PX)
             self._presets.addButton(button, number)
-            layout.addWidget(button)
+            layout.addWidget(button, 0, Qt.AlignmentFlag.AlignLeft)
         return chooser
 
     def _lay_out(self) -> None:

@@ -3,10 +3,13 @@
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QFrame, QGridLayout, QHBoxLayout, QLabel, QVBoxLayout, QWidget
 
+from gestureapp.guided.trained_words import Level as Reliance
+from gestureapp.guided.trained_words import level_of
 from gestureapp.guided.values import TrainingResult
 from ui.confusion_matrix import ConfusionMatrix
 from ui.fold import FoldButton
 from ui.labels import plain
+from ui.marks import Level, Mark
 from ui.recognition_table import RecognitionTable
 from ui.theme import LARGE_PX, SMALL_PX, TEXT_PX, sized
 
@@ -27,6 +30,11 @@ class TrainingResultView(QWidget):
         self._table = RecognitionTable()
         self._matrix = ConfusionMatrix("resultMatrix")
         self._facts = _Facts()
+        self._mark = Mark(20)
+        judged = QHBoxLayout()
+        judged.setSpacing(8)
+        judged.addWidget(self._mark)
+        judged.addWidget(self._judgement, 1)
         shown = QWidget()
         figures = QHBoxLayout(shown)
         figures.setContentsMargins(0, 0, 0, 0)
@@ -36,7 +44,7 @@ class TrainingResultView(QWidget):
         layout = QVBoxLayout(self)
         layout.setContentsMargins(0, 0, 0, 0)
         layout.setSpacing(6)
-        layout.addWidget(self._judgement)
+        layout.addLayout(judged)
         layout.addWidget(self._advice)
         layout.addWidget(self._how)
         layout.addWidget(shown, 1)
@@ -53,6 +61,9 @@ class TrainingResultView(QWidget):
         self._advice.setText(others)
         self._advice.setVisible(bool(others))
         evaluation = result.evaluation
+        is_poor = level_of(evaluation) is Reliance.POOR
+        self._mark.setVisible(is_poor)
+        self._mark.show_level(Level.ATTENTION)
         self._how.setText(
             f"{evaluation.n} takes, each heard by a network that had not seen it ({result.folds}). "
             "Only trying it with the arms shows how well it does in operation."

@@ -39,9 +39,9 @@ honest and of spoilt takes found odd:
     3.0      1 %     52 %          40 %           82 %              57 %             4 %
 """
 USUAL_MIN_G = 0.06
-"""Nobody is measured by less: six simulated practised people's takes are usually 0.03 to 0.08 g from
-their median, and with this floor 4 % of them are found odd instead of 6 %; of ordinary people's,
-which are at 0.07 to 0.22 g, as many as without."""
+"""Nobody is measured by less: six simulated practised people's takes are usually 0.03 to 0.08 g
+from their median, and with this floor 4 % of them are found odd instead of 6 %; of ordinary
+people's, which are at 0.07 to 0.22 g, as many as without."""
 BAND_PERCENT = (10.0, 90.0)
 """Eight of ten takes lie between."""
 _APART_S = 100.0

@@ -122,12 +122,20 @@ def test_what_is_missing_is_said_and_nothing_can_be_pressed(desk):
     assert desk.text("trainText") == "Choose a person first."
 
 
+def test_gestures_without_takes_are_named(desk):
+    desk.show(TrainingView(), recorded(RXp=0, RXm=0))
+    assert desk.text("trainText") == (
+        "300 takes of 10 gestures count. The model will not know RX+, RX-: no takes."
+    )
+    desk.press("trainButton")
+
+
 def test_while_it_trains_progress_remaining_time_and_loss_are_seen(desk):
     losses = tuple((i, math.exp(-i / 50)) for i in range(1, 3000))
     desk.show(TrainingView(TrainingPhase.RUNNING, 0.414, 4.2, losses, "pass 2999 of 7000"))
     bar = desk.step.findChild(QProgressBar, "trainProgress")
     assert bar.text() == "41 %, about 4 s left"
-    assert desk.text("trainText") == "pass 2999 of 7000"
+    assert desk.text("trainText") == "Pass 2999 of 7000"
     points = desk.step.findChild(LossPlot, "lossPlot").points()
     assert 300 <= len(points) <= 500
     assert points[-1] == pytest.approx((2999, -2999 / 50 / math.log(10)))
