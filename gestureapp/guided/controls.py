@@ -19,7 +19,8 @@ class GuidedControls(Protocol):
         """Choose whose takes these are; a new name begins a new database.
 
         Raises:
-            RecordingError: it cannot be opened or made; says why and what to do.
+            RecordingError: it cannot be opened or made; says why and what to do. Another person's
+                takes stay open then.
         """
 
     def close(self) -> None:

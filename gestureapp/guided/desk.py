@@ -17,7 +17,7 @@ from gestureapp.guided.trying import LiveTest
 from gestureapp.guided.values import GuidedSnapshot, Pace, Take, Trying
 from gestureapp.guided.verdict import LEVEL_DEG
 from gestureapp.guided.words import CHOOSE_PERSON
-from gestureapp.recording.people import model_path
+from gestureapp.recording.people import clean_name, model_path
 
 WANTED_MIN: Final = 5
 WANTED_MAX: Final = 200
@@ -77,11 +77,13 @@ class Desk:
         """Open a person's takes, putting those of another away.
 
         Raises:
-            RecordingError: they cannot be opened; nobody's are open then.
+            RecordingError: they cannot be opened; those of another stay open.
         """
+        if self.sitting is not None and self.sitting.person == clean_name(person):
+            self.close()
+        opened = Sitting(self._data, person, self._plan, self._arms, self._wall_clock())
         self.close()
-        self._tried = Trying()
-        self.sitting = Sitting(self._data, person, self._plan, self._arms, self._wall_clock())
+        self.sitting, self._tried = opened, Trying()
         self._draw(self._clock())
 
     def close(self) -> None:

@@ -10,11 +10,12 @@ import time
 from collections.abc import Callable
 from concurrent.futures import Future
 from concurrent.futures import TimeoutError as FutureTimeoutError
+from dataclasses import replace
 from pathlib import Path
 from typing import Final
 
 from gestureapp.clock import Clock, monotonic
-from gestureapp.errors import RecordingError
+from gestureapp.errors import RecordingError, WorkerError
 from gestureapp.guided.arms import SensedCell
 from gestureapp.guided.desk import Desk
 from gestureapp.guided.sitting import Sitting
@@ -62,7 +63,8 @@ class Guided:
 
     def snapshot(self) -> GuidedSnapshot:
         """The newest frozen picture; polled at the display rate."""
-        return self._desk.picture
+        picture, error = self._desk.picture, self._worker.error
+        return picture if error is None else replace(picture, trouble=_ended(error))
 
     def people(self) -> tuple[str, ...]:
         """Names of everybody who has takes here."""
@@ -72,7 +74,8 @@ class Guided:
         """Choose whose takes these are; a new name begins a new database.
 
         Raises:
-            RecordingError: it cannot be opened or made; says why and what to do.
+            RecordingError: it cannot be opened or made; says why and what to do. Another person's
+                takes stay open then.
         """
         self._ask_and_wait(lambda desk: desk.open(person))
 
@@ -169,6 +172,8 @@ class Guided:
             else:
                 answer.set_result(None)
 
+        if self._worker.error is not None:
+            raise RecordingError(self._data, _ended(self._worker.error))
         if not self._worker.is_alive:
             return
         self._wishes.put(answered)
@@ -197,3 +202,7 @@ class Guided:
         except queue.Empty:
             return
         wish(self._desk)
+
+
+def _ended(error: WorkerError) -> str:
+    return f"{error}; every take so far is kept; restart the application"

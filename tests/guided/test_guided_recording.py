@@ -2,14 +2,16 @@
 
 import itertools
 import math
+from contextlib import closing
 
 import pytest
 
 from gestureapp.config import Settings, TrainingSettings
+from gestureapp.errors import RecordingError
 from gestureapp.gestures import LABELS
 from gestureapp.guided.order import SUGGESTED
 from gestureapp.guided.values import Pace, Phase, Quality
-from gestureapp.recording.take_store import to_take_set
+from gestureapp.recording.take_store import TakeStore, to_take_set
 from gestureapp.recording.take_values import Verdict
 from gestureapp.sensing.values import Side
 from gestureapp.simulation.people import draw_person
@@ -289,3 +291,13 @@ def test_the_level_indicator_follows_the_hand(bench):
     bench.run(1.0)
     assert math.isnan(bench.picture.tilt_deg)
     assert not bench.picture.is_level
+
+
+def test_a_person_who_cannot_be_opened_leaves_the_other_open(bench, tmp_path):
+    bench.desk.open("Ana")
+    with closing(TakeStore(tmp_path, "Bob")), pytest.raises(RecordingError, match="in use"):
+        bench.desk.open("Bob")
+    bench.tick()
+    assert bench.picture.person == "Ana"
+    bench.desk.open(" Ana ")
+    assert bench.picture.person == "Ana"
