@@ -4,6 +4,7 @@ from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import (
     QFrame,
     QHBoxLayout,
+    QLabel,
     QLineEdit,
     QListWidget,
     QListWidgetItem,
@@ -20,6 +21,7 @@ from ui.operate_page import framed
 from ui.theme import LARGE_PX, TEXT_PX, sized
 from ui.train_words import continue_text
 
+NOBODY = "Choose who wears the sensors. Each person has takes and a model of their own."
 _NAME_PX = 18
 _LONGEST_NAME = 60
 
@@ -44,6 +46,7 @@ class PersonStep(QWidget):
         self.setObjectName("personStep")
         self._guided = guided
         self._people: tuple[str, ...] = ()
+        self._last = ""
         self._person: str | None = None
         self._list = QListWidget()
         self._list.setObjectName("peopleList")
@@ -67,30 +70,37 @@ class PersonStep(QWidget):
         self._list.itemActivated.connect(lambda item: self._choose(item.text()))
         self._name.returnPressed.connect(self._begin)
         self._open.clicked.connect(self._begin)
-        self._next.clicked.connect(self.finished)
+        self._next.clicked.connect(self._go_on)
 
     def refresh(self) -> None:
-        """Ask again who has takes."""
+        """Ask again who has takes, and who was here last."""
         self._people = self._guided.people()
+        self._last = "" if self._person else self._guided.last_person()
         self._list.clear()
         for name in self._people:
             self._list.addItem(QListWidgetItem(name))
         self._list.setVisible(bool(self._people))
-        self._mark(self._person or "")
+        self._mark(self._person or self._last)
 
     def show_snapshot(self, snapshot: GuidedSnapshot) -> None:
         """Show who is chosen and how far that person is."""
         if snapshot.person != self._person:
             self._person = snapshot.person
             self.refresh()
-            self._chosen.setText(snapshot.person or "Nobody is chosen yet")
-        self._next.setEnabled(bool(snapshot.person))
+        who = snapshot.person or self._last
+        self._next.setEnabled(bool(who))
+        _say(self._chosen, who or "Nobody is chosen yet")
+        _say(self._next, f"Continue as {who}" if who else "Continue")
         if snapshot.person:
-            far = continue_text(snapshot)
+            _say(self._far, continue_text(snapshot))
+        elif who:
+            _say(self._far, "Recorded here last. Continue, or choose somebody else.")
         else:
-            far = "Choose who wears the sensors. Each person has takes and a model of their own."
-        if far != self._far.text():
-            self._far.setText(far)
+            _say(self._far, NOBODY)
+
+    def _go_on(self) -> None:
+        if self._choose(self._person or self._last):
+            self.finished.emit()
 
     def _begin(self) -> None:
         name = " ".join(self._name.text().split())
@@ -132,7 +142,7 @@ class PersonStep(QWidget):
         sized(self._trouble, LARGE_PX, is_bold=True)
         for button in (self._open, self._next):
             button.setAutoDefault(False)
-            button.setMinimumHeight(44)
+            button.setMinimumSize(120, 44)
             sized(button, LARGE_PX, is_bold=True)
         self._trouble.hide()
         who = _titled("peopleTitle", "Who wears the sensors?")
@@ -172,3 +182,8 @@ def _titled(name: str, text: str) -> QWidget:
     title.setText(text)
     sized(title, TEXT_PX, is_bold=True)
     return title
+
+
+def _say(widget: QLabel | QPushButton, text: str) -> None:
+    if widget.text() != text:
+        widget.setText(text)

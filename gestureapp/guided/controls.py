@@ -15,6 +15,9 @@ class GuidedControls(Protocol):
     def people(self) -> tuple[str, ...]:
         """Names of everybody who has takes here."""
 
+    def last_person(self) -> str:
+        """Whose takes were opened last, also in an earlier run; empty when nobody's were."""
+
     def open(self, person: str) -> None:
         """Choose whose takes these are; a new name begins a new database.
 

@@ -17,7 +17,7 @@ from gestureapp.guided.trying import LiveTest
 from gestureapp.guided.values import GuidedSnapshot, Pace, Take, Trying
 from gestureapp.guided.verdict import LEVEL_DEG
 from gestureapp.guided.words import CHOOSE_PERSON
-from gestureapp.recording.people import clean_name, model_path
+from gestureapp.recording.people import clean_name, model_path, note_last_person
 
 WANTED_MIN: Final = 5
 WANTED_MAX: Final = 200
@@ -84,6 +84,7 @@ class Desk:
         opened = Sitting(self._data, person, self._plan, self._arms, self._wall_clock())
         self.close()
         self.sitting, self._tried = opened, Trying()
+        note_last_person(self._data, person)
         self._draw(self._clock())
 
     def close(self) -> None:

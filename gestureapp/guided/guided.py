@@ -20,7 +20,7 @@ from gestureapp.guided.arms import SensedCell
 from gestureapp.guided.desk import Desk
 from gestureapp.guided.sitting import Sitting
 from gestureapp.guided.values import GuidedSnapshot, Pace, Phase, Take
-from gestureapp.recording.people import list_people
+from gestureapp.recording.people import last_person, list_people
 from gestureapp.worker import Worker
 
 TICK_S: Final = 0.01
@@ -69,6 +69,10 @@ class Guided:
     def people(self) -> tuple[str, ...]:
         """Names of everybody who has takes here."""
         return list_people(self._data)
+
+    def last_person(self) -> str:
+        """Whose takes were opened last, also in an earlier run; empty when nobody's were."""
+        return last_person(self._data)
 
     def open(self, person: str) -> None:
         """Choose whose takes these are; a new name begins a new database.

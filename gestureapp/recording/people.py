@@ -4,6 +4,7 @@ A folder is named after its person as far as file systems allow, with a digest o
 behind it: two names never share a folder, whatever their characters and on whatever disk.
 """
 
+import contextlib
 import hashlib
 import re
 import unicodedata
@@ -17,6 +18,7 @@ PEOPLE_FOLDER: Final = "people"
 TAKES_FILE: Final = "takes.sqlite"
 MODEL_FILE: Final = "model.json"
 _NAME_FILE: Final = "name.txt"
+_LAST_FILE: Final = "last.txt"
 MAX_NAME_CHARS: Final = 60
 _SLUG_CHARS: Final = 24
 _DIGEST_CHARS: Final = 12
@@ -101,3 +103,19 @@ def list_people(data: Path) -> tuple[str, ...]:
         except RecordingError:
             continue
     return tuple(sorted(names, key=str.casefold))
+
+
+def note_last_person(data: Path, person: str) -> None:
+    """Remember whose takes were opened last; a disk that refuses costs only this memory."""
+    with contextlib.suppress(RecordingError):
+        content = clean_name(person).encode("utf-8", "surrogatepass")
+        write_atomically(data / PEOPLE_FOLDER / _LAST_FILE, content)
+
+
+def last_person(data: Path) -> str:
+    """Whose takes were opened last, if that person still has a folder; else empty."""
+    try:
+        name = clean_name((data / PEOPLE_FOLDER / _LAST_FILE).read_text("utf-8"))
+    except (OSError, ValueError):
+        return ""
+    return name if name in list_people(data) else ""

@@ -1,6 +1,7 @@
 """Where takes are, and files that are damaged, foreign, newer or in use."""
 
 import os
+import shutil
 import signal
 import sqlite3
 import subprocess
@@ -19,9 +20,11 @@ from gestureapp.errors import RecordingError, RecordingInvalid
 from gestureapp.recording.people import (
     MAX_NAME_CHARS,
     clean_name,
+    last_person,
     list_people,
     make_person_folder,
     model_path,
+    note_last_person,
     person_folder,
 )
 from gestureapp.recording.take_store import NewTake, TakeStore
@@ -96,6 +99,18 @@ def test_nobody_is_listed_where_nobody_is(tmp_path: Path):
     (tmp_path / "people" / "file").write_text("")
     (tmp_path / "people" / "stray" / "name.txt").write_bytes(b"\xff\xfe")
     assert list_people(tmp_path) == ()
+
+
+def test_whoever_was_here_last_is_remembered_while_the_takes_are_there(tmp_path: Path):
+    assert last_person(tmp_path) == ""
+    note_last_person(tmp_path, "Ana")
+    assert last_person(tmp_path) == "", "nothing could be kept, and nobody is there"
+    TakeStore(tmp_path, "Ana").close()
+    TakeStore(tmp_path, "Zoë").close()
+    note_last_person(tmp_path, " Zoë ")
+    assert last_person(tmp_path) == "Zoë"
+    shutil.rmtree(person_folder(tmp_path, "Zoë"))
+    assert last_person(tmp_path) == ""
 
 
 def test_takes_in_use_are_refused_in_words_and_not_harmed(tmp_path: Path):

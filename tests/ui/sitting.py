@@ -28,6 +28,9 @@ class DeskControls:
     def people(self) -> tuple[str, ...]:
         return self.names
 
+    def last_person(self) -> str:
+        return self.names[-1] if self.names else ""
+
     def open(self, person: str) -> None:
         self.bench.desk.open(person)
         self.names = tuple({*self.names, person})

@@ -82,6 +82,25 @@ def test_somebody_who_was_here_before_continues(qtbot, page, guided):
     assert page.findChild(object, "sensorsStep").isVisible()
 
 
+def test_whoever_recorded_last_is_offered_in_the_next_run(qtbot, cell, tmp_path, guided):
+    guided.open("Ana")
+    guided.open("Bo")
+    guided.shutdown()
+    again = Guided(cell, tmp_path)
+    again.start_thread()
+    step = PersonStep(again)
+    qtbot.addWidget(step)
+    led_on: list[bool] = []
+    step.finished.connect(lambda: led_on.append(True))
+    step.show_snapshot(again.snapshot())
+    assert text_of(step, "personChosen") == "Bo"
+    assert step.findChild(object, "continuePerson").text() == "Continue as Bo"
+    click(step, "continuePerson")
+    assert led_on == [True]
+    assert again.snapshot().person == "Bo"
+    again.shutdown()
+
+
 def test_an_empty_name_is_told_and_the_step_stays(page):
     enter(page, "   ")
     assert text_of(page, "personTrouble") == "Enter a name first."
