@@ -159,11 +159,19 @@ def _add_simulate(commands: "argparse._SubParsersAction[argparse.ArgumentParser]
 
 def _add_benchmark(commands: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
     benchmark = commands.add_parser("benchmark", help="measure the figures of the README")
-    benchmark.add_argument("what", choices=("latency", "stop", "training", "startup", "faults"))
+    figures = ("latency", "stop", "training", "recognition", "startup", "faults")
+    benchmark.add_argument("what", choices=figures)
     benchmark.add_argument("--seconds", type=_seconds, default=40.0, help="at least, per case")
     benchmark.add_argument("--runs", type=_count, default=3, help="of each fault")
     benchmark.add_argument(
         "--fault", action="append", metavar="NAME", help="this one only; may be repeated"
+    )
+    benchmark.add_argument("--people", type=_count, default=20, help="for recognition: simulated")
+    benchmark.add_argument(
+        "--takes", type=Path, metavar="TAKES.npz", help="for recognition: takes from a file instead"
+    )
+    benchmark.add_argument(
+        "--gestures", default="", metavar="A,B", help="for recognition: of the file's only these"
     )
     benchmark.add_argument("--json", action="store_true")
     benchmark.set_defaults(run=None)
@@ -242,7 +250,18 @@ def _benchmark(options: argparse.Namespace, open_window: "OpenWindow | None") ->
 
     if options.what == "faults":
         return _benchmark_faults(options, open_window)
+    if options.what == "recognition":
+        return _benchmark_recognition(options)
     report = measure(options.what, options.seconds, open_window)
+    _write(json.dumps(report.as_json()) if options.json else report.as_table())
+    return FINE
+
+
+def _benchmark_recognition(options: argparse.Namespace) -> int:
+    from gestureapp.benchmark import measure_recognition
+
+    gestures = [label for label in options.gestures.split(",") if label]
+    report = measure_recognition(options.people, options.takes, gestures)
     _write(json.dumps(report.as_json()) if options.json else report.as_table())
     return FINE
 

@@ -5,6 +5,7 @@ Nothing here is a test: figures are printed, never judged.
 
 import sys
 from collections.abc import Sequence
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 from gestureapp.benchmark.report import Report
@@ -14,6 +15,7 @@ from gestureapp.window_port import OpenWindow
 
 if TYPE_CHECKING:
     from gestureapp.benchmark.faults.table import FaultReport
+    from gestureapp.benchmark.recognition import RecognitionReport
 
 
 def measure(what: str, seconds: float, open_window: OpenWindow | None) -> Report:
@@ -69,3 +71,21 @@ def measure_faults(
     from gestureapp.benchmark.faults import run_faults
 
     return run_faults(runs, names, program_command())
+
+
+def measure_recognition(
+    n_people: int, takes: Path | None, gestures: Sequence[str]
+) -> "RecognitionReport":
+    """What both presets recognise of takes they have not seen.
+
+    Args:
+        n_people: Simulated ones, when there is no file.
+        takes: File of takes to cross-validate with, or None.
+        gestures: Of the file's, only these; all when empty.
+
+    Raises:
+        GestureAppError: the file cannot be used.
+    """
+    from gestureapp.benchmark.recognition import measure_people, measure_takes
+
+    return measure_people(n_people) if takes is None else measure_takes(takes, gestures)
