@@ -13,6 +13,7 @@ from ui.level_view import LevelView
 from ui.operate_page import framed
 from ui.prompt_view import PromptView
 from ui.record_controls import RecordControls
+from ui.sounds import SoundBox, Sounds, TrainingSounds
 from ui.take_strip import TakeStrip
 
 _BEFORE_S, _AFTER_S = 0.5, 1.0
@@ -35,6 +36,9 @@ class RecordStep(QWidget):
         self._plot = ArmPlot("recordPlot", "Right arm")
         framed(self._plot)
         self._level = LevelView("recordLevel")
+        sounds = Sounds()
+        self._sounds = TrainingSounds(sounds, parent=self)
+        self._sound = SoundBox(sounds)
         self._strip = TakeStrip()
         self._controls = RecordControls(guided, self._strip)
         self._lay_out()
@@ -44,6 +48,7 @@ class RecordStep(QWidget):
         """Show another moment."""
         self._list.show_progress(guided.progress, guided.label, guided.suggested)
         self._prompt.show_snapshot(guided)
+        self._sounds.show_snapshot(guided)
         self._strip.show_batch(guided.batch)
         self._controls.show_snapshot(guided)
         is_moving = guided.phase is Phase.TAKING
@@ -73,7 +78,11 @@ class RecordStep(QWidget):
         live.addWidget(self._plot, 1)
         self._level.setFixedWidth(_SIDE_PX)
         self._level.setFixedHeight(80)
-        live.addWidget(self._level)
+        side = QVBoxLayout()
+        side.setSpacing(2)
+        side.addWidget(self._level)
+        side.addWidget(self._sound)
+        live.addLayout(side)
         middle = QVBoxLayout()
         middle.setSpacing(6)
         middle.addWidget(self._prompt, 5)

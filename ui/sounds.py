@@ -13,6 +13,7 @@ from enum import Enum
 from pathlib import Path
 
 from PySide6.QtCore import QObject, Qt, QTimer
+from PySide6.QtWidgets import QCheckBox, QWidget
 
 from gestureapp.clock import Clock, monotonic
 from gestureapp.guided.values import GuidedSnapshot, Pace, Phase
@@ -45,7 +46,7 @@ class Sounds:
         players: Commands to choose the first from that is installed.
 
     Attributes:
-        is_on: Whether anything is played; a person may set it.
+        is_on: Whether anything is played.
     """
 
     def __init__(self, players: Sequence[tuple[str, ...]] = PLAYERS) -> None:
@@ -87,7 +88,11 @@ class Sounds:
     def can_play(self) -> bool:
         """There is a player, and it has not failed."""
         self._reap()
-        return self._command is not None
+        return self._command is not None or sys.platform == "win32"
+
+    def turn_on(self, is_on: bool) -> None:
+        """Let sounds be heard, or not."""
+        self.is_on = is_on
 
     def close(self) -> None:
         """End what is being played. Idempotent."""
@@ -150,6 +155,19 @@ class TrainingSounds(QObject):
         wait_s = beat_s - AHEAD_S - self._clock()
         if 0.0 <= wait_s < 60.0:
             self._timer.start(round(wait_s * 1000.0))
+
+
+class SoundBox(QCheckBox):
+    """Lets a person have silence; not there where nothing could be heard anyway."""
+
+    def __init__(self, sounds: Sounds, parent: QWidget | None = None) -> None:
+        super().__init__("Sounds", parent)
+        self.setObjectName("soundsOn")
+        self.setAccessibleName("Beats and takes can be heard")
+        self.setFocusPolicy(Qt.FocusPolicy.NoFocus)
+        self.setChecked(sounds.is_on)
+        self.setVisible(sounds.can_play)
+        self.toggled.connect(sounds.turn_on)
 
 
 def sound_between(before: GuidedSnapshot, after: GuidedSnapshot) -> Sound | None:

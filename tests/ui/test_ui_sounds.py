@@ -14,7 +14,7 @@ os.environ.setdefault("QT_QPA_PLATFORM", "offscreen")
 
 from gestureapp.guided.values import GuidedSnapshot, Pace, Phase
 from gestureapp.recording.take_values import Judgement, Take, Verdict
-from ui.sounds import FOLDER, GIVE_UP_AFTER, Sound, Sounds, TrainingSounds, sound_between
+from ui.sounds import FOLDER, GIVE_UP_AFTER, Sound, SoundBox, Sounds, TrainingSounds, sound_between
 
 RESTING = GuidedSnapshot(person="Ana", phase=Phase.WAITING, label="X+")
 
@@ -102,6 +102,21 @@ def test_who_wants_silence_has_it(tmp_path):
     sounds.is_on = False
     sounds.play(Sound.BEAT)
     assert sounds.n_playing == 0
+
+
+def test_a_person_can_have_silence_by_a_box_that_is_there_when_there_is_a_player(tmp_path, qtbot):
+    command, _ = noting(tmp_path)
+    sounds = Sounds([command])
+    box = SoundBox(sounds)
+    qtbot.addWidget(box)
+    box.click()
+    assert not sounds.is_on
+    box.click()
+    assert sounds.is_on
+    none = SoundBox(Sounds([("no-such-player",)]))
+    qtbot.addWidget(none)
+    assert none.isHidden()
+    assert not box.isHidden()
 
 
 def test_there_is_silence_without_a_player():
