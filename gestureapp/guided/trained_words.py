@@ -70,23 +70,6 @@ def words_of(evaluation: Evaluation) -> tuple[str, ...]:
     return summary, *(hint.text for hint in hints), *_few(evaluation)
 
 
-def gesture_words(evaluation: Evaluation) -> dict[str, str]:
-    """For each gesture in one line how it did and with what it is confused."""
-    words = {}
-    for row, (label, (right, _, rejected)) in _rows(evaluation):
-        counts = evaluation.confusion[row].copy()
-        n = int(counts.sum())
-        counts[[row, -1]] = 0
-        text = f"{_share(right)} of {n} recognised"
-        if counts.any():
-            other = int(counts.argmax())
-            text += f", {int(counts[other])} heard as {evaluation.labels[other]}"
-        if rejected:
-            text += f", {round(rejected * n)} not recognised"
-        words[label] = text
-    return words
-
-
 def missing_words(labels: Iterable[str]) -> str:
     """What is missing for a training from takes with these labels; empty when nothing is."""
     counts = Counter(labels)
