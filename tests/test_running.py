@@ -1,20 +1,32 @@
 """A cell with everything around it: its folders, its recorder, its emulators, its end."""
 
+import contextlib
 import os
 import sys
 from dataclasses import replace
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from gestureapp import __version__
 from gestureapp.cell.snapshot import CellState
-from gestureapp.config import RobotSettings, Settings
+from gestureapp.config import PersonSettings, RobotSettings, Settings
 from gestureapp.errors import ConfigError, GestureAppError, RobotInUse
+from gestureapp.guided.values import TrainingPhase
 from gestureapp.recording.session_reader import read_session
+from gestureapp.recording.take_store import NewTake, TakeStore
+from gestureapp.recording.take_values import Judgement, Verdict
 from gestureapp.robot.lock import AddressLock
-from gestureapp.running import data_folder, describe, running_cell, settings_files
+from gestureapp.running import (
+    RunningCell,
+    data_folder,
+    describe,
+    running_cell,
+    settings_files,
+)
 from gestureapp.simulation.demo import DemoOptions
+from gestureapp.simulation.takes import make_takes
 from tests.cell.conftest import wait_until
 
 
@@ -117,3 +129,51 @@ def test_an_error_inside_still_ends_everything(tmp_path: Path):
         fail_inside()
     with pytest.raises(ProcessLookupError):
         os.kill(pids[0], 0)
+
+
+def keep_simulated_takes(data: Path, person: str, session: int = 1) -> None:
+    """Eight takes of each gesture by the practised person of the demo, in the person's database."""
+    takes = make_takes(1, 8, seed=7, session=session, practised=True)
+    times_s = np.arange(-50, 100) * 0.01 + 0.002
+    with contextlib.closing(TakeStore(data, person)) as store:
+        for number, label in enumerate(takes.labels):
+            good = Judgement(Verdict.GOOD, "")
+            accel_g = takes.accel_g(number)
+            store.add(NewTake(label, f"day {session}", 1e9 + number, good, times_s, accel_g))
+
+
+def model_blockers(running: RunningCell) -> list[str]:
+    return [b.text for b in running.cell.snapshot().blockers if b.id == "model"]
+
+
+@pytest.mark.process
+def test_a_model_trained_here_is_used_at_once_and_after_a_restart_until_the_takes_change(
+    tmp_path: Path,
+):
+    ana = replace(Settings(), person=PersonSettings("Ana", None))
+    keep_simulated_takes(tmp_path, "Ana")
+    with running_cell(ana, tmp_path) as running:
+        assert wait_until(lambda: model_blockers(running) == ["no model is set for this person"])
+        running.guided.open("Ana")
+        running.trainer.start()
+        is_over = (TrainingPhase.DONE, TrainingPhase.FAILED)
+        assert wait_until(lambda: running.trainer.view().phase in is_over, 60.0)
+        assert running.trainer.view().phase is TrainingPhase.DONE, running.trainer.view().text
+        assert wait_until(lambda: not model_blockers(running))
+        words = "Ana, 12 gestures, not tried live"
+        assert wait_until(lambda: running.cell.snapshot().model == words)
+
+    with running_cell(ana, tmp_path) as running:
+        assert wait_until(lambda: running.cell.snapshot().model == words)
+        running.guided.open("Ana")
+        assert wait_until(lambda: running.trainer.view().result is not None)
+        running.guided.exclude(running.guided.takes()[0].id)
+        out_of_date = ["the takes have changed since the model was trained"]
+        assert wait_until(lambda: model_blockers(running) == out_of_date)
+        running.guided.undo()
+        assert wait_until(lambda: not model_blockers(running))
+        running.guided.exclude(running.guided.takes()[0].id)
+        assert wait_until(lambda: model_blockers(running) == out_of_date)
+
+    with running_cell(ana, tmp_path) as running:
+        assert wait_until(lambda: model_blockers(running) == out_of_date)
