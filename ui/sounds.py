@@ -166,7 +166,8 @@ class SoundBox(QCheckBox):
         self.setAccessibleName("Beats and takes can be heard")
         self.setFocusPolicy(Qt.FocusPolicy.NoFocus)
         self.setChecked(sounds.is_on)
-        self.setVisible(sounds.can_play)
+        if not sounds.can_play:
+            self.hide()
         self.toggled.connect(sounds.turn_on)
 
 

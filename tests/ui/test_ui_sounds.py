@@ -12,6 +12,8 @@ import pytest
 
 os.environ.setdefault("QT_QPA_PLATFORM", "offscreen")
 
+from PySide6.QtWidgets import QWidget
+
 from gestureapp.guided.values import GuidedSnapshot, Pace, Phase
 from gestureapp.recording.take_values import Judgement, Take, Verdict
 from ui.sounds import FOLDER, GIVE_UP_AFTER, Sound, SoundBox, Sounds, TrainingSounds, sound_between
@@ -107,16 +109,16 @@ def test_who_wants_silence_has_it(tmp_path):
 def test_a_person_can_have_silence_by_a_box_that_is_there_when_there_is_a_player(tmp_path, qtbot):
     command, _ = noting(tmp_path)
     sounds = Sounds([command])
-    box = SoundBox(sounds)
-    qtbot.addWidget(box)
+    host = QWidget()
+    qtbot.addWidget(host)
+    box, none = SoundBox(sounds, host), SoundBox(Sounds([("no-such-player",)]), host)
+    host.show()
+    assert box.isVisible()
+    assert not none.isVisible()
     box.click()
     assert not sounds.is_on
     box.click()
     assert sounds.is_on
-    none = SoundBox(Sounds([("no-such-player",)]))
-    qtbot.addWidget(none)
-    assert none.isHidden()
-    assert not box.isHidden()
 
 
 def test_there_is_silence_without_a_player():
