@@ -22,7 +22,7 @@ class CheckGestures(QListWidget):
         self.setObjectName("checkGestures")
         self.setAccessibleName("Gestures and how alike their takes are")
         self.setSelectionMode(QAbstractItemView.SelectionMode.SingleSelection)
-        self.setFixedWidth(158)
+        self.setFixedWidth(150)
         self._shown: list[tuple[str, str]] = []
         self.currentRowChanged.connect(self._tell)
 

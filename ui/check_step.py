@@ -24,7 +24,7 @@ from ui.theme import LARGE_PX, SMALL_PX
 
 _NOTHING = "No takes yet: record some, and they are shown here beside each other."
 _NOBODY = "Choose a person first."
-_RIGHT_PX = 316
+_RIGHT_PX = 304
 
 
 class CheckStep(QWidget):

@@ -66,12 +66,13 @@ def live_words(evaluation: Evaluation) -> str:
 
 
 def outcome_words(trying: Trying) -> str:
-    """What came of the last gesture tried; empty before the first."""
+    """What came of the last gesture tried, ``X+: wrong, heard Y-``; empty before the first."""
     if not trying.heard:
         return ""
     if trying.was_right:
-        return f"right: heard {trying.heard}"
-    return trying.heard if trying.heard == NOT_RECOGNISED else f"wrong: heard {trying.heard}"
+        return f"{trying.answered}: right"
+    heard = trying.heard if trying.heard == NOT_RECOGNISED else f"wrong, heard {trying.heard}"
+    return f"{trying.answered}: {heard}"
 
 
 def check_words(check: GestureCheck) -> str:

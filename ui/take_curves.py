@@ -28,8 +28,8 @@ class CurveLegend(QWidget):
     """What each kind of line means."""
 
     _ENTRIES = ("median", "8 of 10", "odd", "not counted", "chosen", "compared")
-    _LINE_PX = 18
-    _GAP_PX = 10
+    _LINE_PX = 16
+    _GAP_PX = 8
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)

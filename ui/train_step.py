@@ -29,10 +29,10 @@ from ui.theme import LARGE_PX, TEXT_PX, sized
 from ui.training_result import TrainingResultView
 
 _LEVELS = {
-    TrainingPhase.RUNNING: Level.BUSY,
     TrainingPhase.FAILED: Level.ATTENTION,
     TrainingPhase.DONE: Level.OK,
 }
+_ENDED_EARLY = (TrainingPhase.CANCELLED, TrainingPhase.FAILED)
 
 
 class TrainStep(QWidget):
@@ -49,19 +49,15 @@ class TrainStep(QWidget):
         self._trainer = trainer
         self._train = QPushButton("Train")
         self._train.setObjectName("trainButton")
-        self._train.setMinimumSize(150, 46)
+        self._train.setMinimumSize(150, 40)
         sized(self._train, LARGE_PX + 2, is_bold=True)
         self._cancel = QPushButton("Cancel")
         self._cancel.setObjectName("cancelTraining")
         self._cancel.setAccessibleName("Cancel the training; the model there was stays")
-        self._cancel.setMinimumSize(110, 46)
+        self._cancel.setMinimumSize(110, 40)
         sized(self._cancel, LARGE_PX)
         self._mark = Mark(16)
         self._text = plain("trainText", LARGE_PX)
-        self._old_mark = Mark(16)
-        self._old_mark.show_level(Level.ATTENTION)
-        self._old = plain("outOfDate", LARGE_PX)
-        sized(self._old, LARGE_PX, is_bold=True)
         self._progress = QProgressBar()
         self._progress.setObjectName("trainProgress")
         self._progress.setRange(0, 1000)
@@ -90,19 +86,20 @@ class TrainStep(QWidget):
             button.setEnabled(not is_running)
         self._show_text(view, missing, snapshot)
         self._show_progress(view)
-        self._old.setText(sentence(view.out_of_date))
-        for widget in (self._old, self._old_mark):
-            widget.setVisible(bool(view.out_of_date) and not is_running)
         self._result.setVisible(view.result is not None and not is_running)
         self._filler.setVisible(view.result is None and not is_running)
         if view.result is not None:
             self._result.show_result(view.result)
 
     def _show_text(self, view: TrainingView, missing: str, snapshot: GuidedSnapshot) -> None:
+        stands_against = missing
+        if view.out_of_date and not missing:
+            stands_against = f"Out of date: {view.out_of_date}. Train again."
+        ended = sentence(view.text) if view.phase in _ENDED_EARLY else ""
         if view.phase is TrainingPhase.RUNNING:
             text, level = view.text, Level.BUSY
-        elif missing:
-            text, level = missing, Level.ATTENTION
+        elif stands_against:
+            text, level = f"{ended}\n{stands_against}".strip(), Level.ATTENTION
         else:
             text = view.text or ready_words(snapshot.progress)
             level = _LEVELS.get(view.phase, Level.OFF)
@@ -150,16 +147,12 @@ class TrainStep(QWidget):
         top.addWidget(self._text, 1)
         chooser = self._preset_chooser()
         top.addWidget(FoldButton("presetFold", "More", chooser))
-        old = QHBoxLayout()
-        old.addWidget(self._old_mark, 0, Qt.AlignmentFlag.AlignTop)
-        old.addWidget(self._old, 1)
         self._filler = QWidget()
         layout = QVBoxLayout(self)
-        layout.setContentsMargins(12, 8, 12, 8)
-        layout.setSpacing(8)
+        layout.setContentsMargins(12, 4, 12, 4)
+        layout.setSpacing(6)
         layout.addLayout(top)
         layout.addWidget(chooser)
-        layout.addLayout(old)
         layout.addWidget(self._progress)
         layout.addWidget(self._loss, 1)
         layout.addWidget(self._result, 1)

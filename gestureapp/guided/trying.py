@@ -148,6 +148,7 @@ class LiveTest:
             n_planned=self._n_planned,
             live=self._live,
             text=self._text(heard),
+            answered=self._answers[-1][0] if self._answers else "",
         )
 
     def _text(self, heard: str) -> str:

@@ -82,6 +82,7 @@ class Trying:
         n_planned: Gestures to be tried.
         live: The matrix so far, or None before the first.
         text: What to do, or what is missing.
+        answered: What had been asked for when ``heard`` was heard.
     """
 
     is_on: bool = False
@@ -93,6 +94,7 @@ class Trying:
     n_planned: int = 0
     live: Live | None = None
     text: str = ""
+    answered: str = ""
 
 
 @dataclass(frozen=True, slots=True)

@@ -32,13 +32,13 @@ def test_a_share_has_its_count():
     ("heard", "was_right", "words"),
     [
         ("", False, ""),
-        ("X+", True, "right: heard X+"),
-        ("Y-", False, "wrong: heard Y-"),
-        ("not recognised", False, "not recognised"),
+        ("X+", True, "X+: right"),
+        ("Y-", False, "X+: wrong, heard Y-"),
+        ("not recognised", False, "X+: not recognised"),
     ],
 )
 def test_an_answer_is_right_wrong_or_not_recognised(heard, was_right, words):
-    assert outcome_words(Trying(heard=heard, was_right=was_right)) == words
+    assert outcome_words(Trying(heard=heard, was_right=was_right, answered="X+")) == words
 
 
 def test_a_gesture_nobody_knows_has_no_words():

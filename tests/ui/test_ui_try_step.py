@@ -152,14 +152,16 @@ def test_at_the_end_it_says_that_this_is_the_figure(desk):
 @pytest.mark.parametrize(
     ("heard", "was_right", "answer", "words"),
     [
-        ("X+", True, Answer.RIGHT, "right: heard X+"),
-        ("Y-", False, Answer.WRONG, "wrong: heard Y-"),
-        ("not recognised", False, Answer.NOT_RECOGNISED, "not recognised"),
+        ("Z+", True, Answer.RIGHT, "Z+: right"),
+        ("Y-", False, Answer.WRONG, "Z+: wrong, heard Y-"),
+        ("not recognised", False, Answer.NOT_RECOGNISED, "Z+: not recognised"),
         ("", False, Answer.NONE, ""),
     ],
 )
 def test_the_sign_and_the_words_say_the_same(desk, heard, was_right, answer, words):
-    trying = Trying(True, "Z+", heard, was_right, "no clear gesture" * (answer is not Answer.RIGHT))
+    trying = Trying(
+        is_on=True, asked="X-", heard=heard, was_right=was_right, reason="why", answered="Z+"
+    )
     desk.step.show_snapshot(GuidedSnapshot(person=PERSON, trying=trying))
     assert desk.answer is answer
     assert desk.text("tryHeard") == words
