@@ -118,7 +118,9 @@ class MainWindow(QMainWindow):
             self._notice.show_text("")
         self._cell.hold_for_training(is_training)
         self._rail.show_place(place)
-        self._pages.setCurrentWidget(self._train if is_training else self._operate)
+        page = self._train if is_training else self._operate
+        self._pages.setCurrentWidget(page)
+        page.setFocus()  # else Space would press whatever Qt hands the focus to
         self.poll()
 
     def stop(self) -> None:

@@ -9,7 +9,7 @@ from gestureapp.guided.values import GuidedSnapshot, Phase
 from ui.gesture_drawing import GestureDrawing
 from ui.labels import BigWord, plain
 from ui.operate_page import framed
-from ui.theme import LARGE_PX, colours_of, sized
+from ui.theme import LARGE_PX, colours_of
 from ui.train_words import instruction, last_verdict, take_count
 
 FLASH_S = 0.15
@@ -41,18 +41,18 @@ class PromptView(QFrame):
         self._words = [BigWord(_LONGEST, 26, 110) for _ in range(2)]
         for i, word in enumerate(self._words):
             word.setObjectName(f"promptWords_{i}")
-        self._how = plain("promptHow", LARGE_PX + 4)
-        sized(self._how, LARGE_PX + 4, is_bold=True)
+        self._how = BigWord("RX+   hand level", 18, 54)
+        self._how.setObjectName("promptHow")
         self._take = BigWord("take 100 of 100", 22, 60)
         self._take.setObjectName("takeLabel")
-        self._sentence = plain("recordSentence", LARGE_PX)
+        self._sentence = plain("recordSentence", LARGE_PX + 1)
         self._sentence.setAlignment(Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignTop)
         self._sentence.setMinimumHeight(2 * self._sentence.fontMetrics().lineSpacing())
         words = QVBoxLayout()
         words.setSpacing(2)
         for word in self._words:
             words.addWidget(word, 5)
-        words.addWidget(self._how)
+        words.addWidget(self._how, 3)
         words.addWidget(self._take, 4)
         words.addWidget(self._sentence)
         layout = QHBoxLayout(self)

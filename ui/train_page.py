@@ -97,6 +97,7 @@ class TrainPage(QWidget):
         self.step = step
         self._bar.show_step(step)
         self._stack.setCurrentWidget(self._steps[step])
+        self.setFocus()  # else Space would press whatever Qt hands the focus to
 
     def leave(self) -> None:
         """The page or its step goes out of sight: nothing is to be recorded unseen."""

@@ -73,34 +73,47 @@ def step_states(
     guided: GuidedSnapshot, training: TrainingView, cell: Snapshot
 ) -> dict[Step, StepState]:
     """How far every step is, in their order."""
-    barrier = "" if guided.person else "choose a person first"
-    n_arms = cell.left.is_ok + cell.right.is_ok
+    if not guided.person:
+        return _states_of_nobody(cell)
     n_good = sum(min(each.good, each.wanted) for each in guided.progress)
     n_wanted = sum(each.wanted for each in guided.progress)
     n_alike = sum(each.quality in _SEEN for each in guided.progress)
     n_sets = len(guided.progress)
     trying = guided.trying
     return {
-        Step.PERSON: StepState(int(bool(guided.person)), 1, guided.person or "not chosen"),
-        Step.SENSORS: StepState(n_arms, 2, f"{n_arms} of 2"),
-        Step.RECORD: StepState(n_good, n_wanted, f"{n_good} of {n_wanted}", barrier),
-        Step.CHECK: StepState(n_alike, n_sets, f"{n_alike} of {n_sets} alike", barrier),
-        Step.TRAIN: _train_state(training, barrier),
+        Step.PERSON: StepState(1, 1, guided.person),
+        Step.SENSORS: _sensors_state(cell),
+        Step.RECORD: StepState(n_good, n_wanted, f"{n_good} of {n_wanted}"),
+        Step.CHECK: StepState(n_alike, n_sets, f"{n_alike} of {n_sets} alike"),
+        Step.TRAIN: _train_state(training),
         Step.TRY: StepState(
             trying.n_done,
             trying.n_planned,
             f"{trying.n_done} of {trying.n_planned}" if trying.n_planned else "not tried",
-            barrier,
         ),
     }
 
 
-def _train_state(training: TrainingView, barrier: str) -> StepState:
+def _states_of_nobody(cell: Snapshot) -> dict[Step, StepState]:
+    closed = StepState(0, 0, "", "choose a person first")
+    person = StepState(0, 1, "not chosen")
+    return dict.fromkeys(Step, closed) | {
+        Step.PERSON: person,
+        Step.SENSORS: _sensors_state(cell),
+    }
+
+
+def _sensors_state(cell: Snapshot) -> StepState:
+    n_arms = cell.left.is_ok + cell.right.is_ok
+    return StepState(n_arms, 2, f"{n_arms} of 2")
+
+
+def _train_state(training: TrainingView) -> StepState:
     if training.result is None:
-        return StepState(0, 1, "no model", barrier)
+        return StepState(0, 1, "no model")
     if training.out_of_date:
-        return StepState(0, 1, "out of date", barrier)
-    return StepState(1, 1, "trained", barrier)
+        return StepState(0, 1, "out of date")
+    return StepState(1, 1, "trained")
 
 
 def is_running(phase: Phase) -> bool:

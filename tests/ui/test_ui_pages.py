@@ -64,6 +64,13 @@ def test_the_training_opens_only_while_the_robot_is_at_rest(room, state):
     assert room.cell.calls == (["training open"] if is_at_rest else [])
 
 
+def test_steps_that_need_a_person_say_so(room):
+    room.press("navTrain")
+    for name in STEPS[2:]:
+        assert not room.button(name).isEnabled()
+        assert "choose a person first" in room.button(name).accessibleName()
+
+
 def test_the_entry_says_why_it_is_closed(room):
     robot = replace(room.cell.shown.robot, is_moving=True)
     room.cell.shown = replace(room.cell.shown, robot=robot)
@@ -167,6 +174,18 @@ def test_every_widget_of_the_training_has_a_name_for_tests_and_for_people(room):
     names = [each.objectName() for each in room.window.findChildren(QAbstractButton)]
     own = [name for name in names if name and not name.startswith("qt_")]
     assert len(own) == len(set(own))
+
+
+def test_space_presses_nothing_after_a_page_or_step_has_changed(room, operator):
+    room.record()
+    for place in ("navOperate", "navTrain", *STEPS):
+        room.press(place)
+        before = room.window.findChild(NavButton, "navTrain").isChecked(), list(room.cell.calls)
+        room.key(Qt.Key.Key_Space)
+        room.run(0.05)
+        assert (room.button("navTrain").isChecked(), list(room.cell.calls)) == before
+        assert not isinstance(QApplication.focusWidget(), QAbstractButton)
+    assert operator.done == []
 
 
 def test_going_away_puts_a_batch_on_hold(room):
