@@ -137,9 +137,9 @@ class OperatorClient:
     def describe(self) -> str:
         """What both arms were told and what is wrong, in one line."""
         with self._changed:
-            parts = [self._plan.words(self._clock())]
-            if self._follower.slip:
-                parts.append(f"clumsy on purpose: {self._follower.slip}")
+            slip = self._follower.slip
+            parts = [f"On purpose: {slip}"] if slip else []
+            parts.append(self._plan.words(self._clock()))
             parts += [f"{side.value} sensor {kind}" for side, kind in self._faults.items()]
             trouble = self._trouble()
             if trouble:
