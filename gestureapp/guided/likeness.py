@@ -18,14 +18,16 @@ from gestureapp.recording.take_values import F64, Take
 
 ENOUGH: Final = 5
 """Good takes of a gesture that say what it is like."""
-NEARER: Final = 1.15
-"""Another gesture has to be nearer by this factor. Twelve ordinary simulated people, 30 takes of
-each gesture: at 1.0, 1.15, 1.3 and 1.5 it was 0.6, 0.3, 0.1 and 0.05 % of the honest takes and
-99.96, 99.8, 99.5 and 98.9 % of those that showed another gesture."""
-CLOSE: Final = 1.2
+NEARER: Final = 1.5
+"""Another gesture has to be nearer by this factor. Of the honest takes of twenty ordinary simulated
+people it takes 1.1 % for unlike the others (at 1.3 and 1.15: 1.5 and 2.0 %), most of them from few
+people whose turns about Z look like movements to the side. To refuse many of those would hide from
+the training what it has to tell apart. Of takes that show another gesture 99.1 % are caught, by
+this verdict or those before it (99.4 and 99.7 %)."""
+CLOSE: Final = 0.8
 """As long as a gesture has too few takes, one that lies so close to another's centre, in its usual
-distances, shows that one: 58 % of the takes of another gesture do, 0.1 % of the honest ones (at 1.5
-it would be 74 and 1.3 %). So a batch of the wrong gesture is noticed within its first takes."""
+distances, shows that one: so a batch of the wrong gesture is noticed within its first takes. With a
+larger number honest takes are refused first, and a gesture's centre comes to lie askew."""
 FAR: Final = 4.0
 """So many times the usual distance from its own centre is unlike the others; 0.4 % of the honest
 takes of ordinary simulated people are (2.5 times: 4 %)."""

@@ -146,26 +146,26 @@ def test_a_reading_at_the_end_of_the_range_is_saturated(axis, sign):
     assert verdict_on("X+", accel_g).verdict is not Verdict.SATURATED
 
 
-@pytest.mark.parametrize("person", [PRACTISED, draw_person(5, 2)])
-def test_another_gesture_is_named_once_there_are_takes_to_compare_with(person):
-    takes = takes_of(person, 10)
-    likeness = Likeness()
-    wrong, named = 0, 0
-    for take in takes_of(person, 3):
-        asked = LABELS[(LABELS.index(take.label) + 6) % 12]
-        if is_held(asked) is is_held(take.label):
-            judgement = judge(asked, take.times_s, take.accel_g, takes, likeness)
-            wrong += 1
-            named += judgement == Judgement(Verdict.UNLIKE, f"looks like {take.label}")
-    assert named >= 0.9 * wrong > 10
+@pytest.mark.parametrize(("person", "share"), [(PRACTISED, 0.99), (draw_person(5, 2), 0.8)])
+def test_another_gesture_is_named_once_there_are_takes_to_compare_with(person, share):
+    takes, likeness = takes_of(person, 10), Likeness()
+    words = [
+        (take.label, judge(asked, take.times_s, take.accel_g, takes, likeness).words)
+        for take in takes_of(person, 1)
+        for asked in LABELS
+        if asked != take.label and is_held(asked) is is_held(take.label)
+    ]
+    assert np.mean([said == f"looks like {shown}" for shown, said in words]) > share
 
 
 def test_the_first_takes_of_a_gesture_are_not_those_of_another():
     takes = [take for take in takes_of(PRACTISED, 10) if take.label != "X+"]
-    shown = [take for take in takes_of(PRACTISED, 8) if take.label == "Y+"]
+    shown = [take for take in takes_of(PRACTISED, 10) if take.label == "Y+"]
     likeness = Likeness()
     words = [judge("X+", t.times_s, t.accel_g, takes, likeness).words for t in shown]
-    assert words.count("looks like Y+") >= 5
+    assert words.count("looks like Y+") >= 3
+    honest = [take for take in takes_of(PRACTISED, 10) if take.label == "X+"]
+    assert all(judge("X+", t.times_s, t.accel_g, takes, likeness).is_good for t in honest)
 
 
 def test_with_too_few_takes_nothing_is_compared():
