@@ -48,6 +48,7 @@ class PersonStep(QWidget):
         self._people: tuple[str, ...] = ()
         self._last = ""
         self._person: str | None = None
+        self._who = _titled("peopleTitle", "Who wears the sensors?")
         self._list = QListWidget()
         self._list.setObjectName("peopleList")
         self._list.setAccessibleName("People who have takes here")
@@ -79,7 +80,8 @@ class PersonStep(QWidget):
         self._list.clear()
         for name in self._people:
             self._list.addItem(QListWidgetItem(name))
-        self._list.setVisible(bool(self._people))
+        for widget in (self._who, self._list):
+            widget.setVisible(bool(self._people))
         self._mark(self._person or self._last)
 
     def show_snapshot(self, snapshot: GuidedSnapshot) -> None:
@@ -145,7 +147,6 @@ class PersonStep(QWidget):
             button.setMinimumSize(120, 44)
             sized(button, LARGE_PX, is_bold=True)
         self._trouble.hide()
-        who = _titled("peopleTitle", "Who wears the sensors?")
         new = _titled("newPersonTitle", "Somebody new")
         entry = QHBoxLayout()
         entry.setSpacing(8)
@@ -154,12 +155,12 @@ class PersonStep(QWidget):
         left = QFrame()
         framed(left)
         column = QVBoxLayout(left)
-        column.addWidget(who)
+        column.addWidget(self._who)
         column.addWidget(self._list, 1)
         column.addWidget(new)
         column.addLayout(entry)
         column.addWidget(self._trouble)
-        column.addStretch(0)
+        column.addStretch(0)  # where nobody is listed
         right = QFrame()
         framed(right)
         facts = QVBoxLayout(right)
