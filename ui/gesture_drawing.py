@@ -70,9 +70,10 @@ class GestureDrawing(QWidget):
         self.is_animated = is_animated
         self._clock = clock
         self._began_s = clock()
+        self._drawn = float("nan")
         self._timer = QTimer(self)
         self._timer.setInterval(FRAME_MS)
-        self._timer.timeout.connect(self.update)
+        self._timer.timeout.connect(self._tick)
         self.setAccessibleName("Drawing: nothing")
         self.set_gesture(label)
 
@@ -135,8 +136,14 @@ class GestureDrawing(QWidget):
             return
         painter = QPainter(self)
         colours = colours_of(self.palette())
-        paint_figure(painter, QRectF(self.rect()), self.label, self.share, colours)
+        self._drawn = self.share
+        paint_figure(painter, QRectF(self.rect()), self.label, self._drawn, colours)
         painter.end()
+
+    def _tick(self) -> None:
+        """Draw another frame, unless the hand stands still."""
+        if self.share != self._drawn:
+            self.update()
 
     def _run_timer(self) -> None:
         if self.is_animated and self.label and self.isVisible():
