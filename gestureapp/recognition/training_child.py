@@ -5,6 +5,7 @@ standard input does, also in the middle of a pass: the application cancels it so
 it behind when it is killed.
 """
 
+import math
 import os
 import sys
 import threading
@@ -36,11 +37,15 @@ def main() -> int:
 
 
 def _do(job: Job, outbox: BinaryIO) -> Finished | Failed:
-    begun_s = monotonic()
+    first: tuple[int, float] | None = None
 
     def progress(done: int, total: int, loss: float) -> None:
-        remaining_s = (monotonic() - begun_s) / done * (total - done)
-        _say(outbox, Progress(done, total, loss, remaining_s))
+        nonlocal first
+        now_s = monotonic()
+        first = first or (done, now_s)  # what came before was the loading of torch
+        first_done, first_s = first
+        pace_s = (now_s - first_s) / (done - first_done) if done > first_done else math.nan
+        _say(outbox, Progress(done, total, loss, pace_s * (total - done)))
 
     try:
         takes = load_takes(job.takes)

@@ -1,6 +1,7 @@
 """What the application and its training child say to each other: one JSON object a line. Pure."""
 
 import json
+import math
 from dataclasses import asdict, dataclass
 from pathlib import Path
 
@@ -36,7 +37,14 @@ class Job:
 
 @dataclass(frozen=True, slots=True)
 class Progress:
-    """How far it is: passes done of all, the error now, and how long it will still take."""
+    """How far it is.
+
+    Attributes:
+        done: Passes done.
+        total: Passes in all.
+        loss: The error now.
+        remaining_s: How long it will still take; NaN while that is not known.
+    """
 
     done: int
     total: int
@@ -45,7 +53,8 @@ class Progress:
 
     def as_line(self) -> bytes:
         """For the application."""
-        return _line({"progress": asdict(self)})
+        remaining_s = None if math.isnan(self.remaining_s) else self.remaining_s
+        return _line({"progress": {**asdict(self), "remaining_s": remaining_s}})
 
 
 @dataclass(frozen=True, slots=True)
@@ -96,9 +105,9 @@ def parse_answer(line: bytes) -> Progress | Finished | Failed | None:
         if "finished" in fields:
             return Finished()
         told = fields["progress"]
-        return Progress(
-            int(told["done"]), int(told["total"]), float(told["loss"]), float(told["remaining_s"])
-        )
+        left = told["remaining_s"]
+        remaining_s = math.nan if left is None else float(left)
+        return Progress(int(told["done"]), int(told["total"]), float(told["loss"]), remaining_s)
     except (ValueError, KeyError, TypeError):
         return None
 

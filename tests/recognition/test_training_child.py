@@ -1,5 +1,6 @@
 """The training child as a process: it does one job, and ends with its input."""
 
+import math
 import subprocess
 import time
 
@@ -54,6 +55,7 @@ def test_a_job_ends_with_a_model_after_progress_up_to_the_end(child, job):
     assert answers[-1] == Finished()
     told = answers[:-1]
     assert all(isinstance(answer, Progress) for answer in told)
+    assert math.isnan(told[0].remaining_s)
     assert [a.done for a in told] == sorted(a.done for a in told)
     assert (told[-1].done, told[-1].remaining_s) == (told[-1].total, 0.0)
     model = load_model(job.out)
