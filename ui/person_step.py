@@ -1,6 +1,6 @@
 """Person: whose takes these are; continue as somebody, or begin with a new name."""
 
-from PySide6.QtCore import Qt, Signal
+from PySide6.QtCore import QSize, Qt, Signal
 from PySide6.QtWidgets import (
     QFrame,
     QHBoxLayout,
@@ -23,6 +23,7 @@ from ui.train_words import continue_text
 
 NOBODY = "Choose who wears the sensors. Each person has takes and a model of their own."
 _NAME_PX = 18
+_ROW_PX = 36
 _LONGEST_NAME = 60
 
 
@@ -79,7 +80,9 @@ class PersonStep(QWidget):
         self._last = "" if self._person else self._guided.last_person()
         self._list.clear()
         for name in self._people:
-            self._list.addItem(QListWidgetItem(name))
+            item = QListWidgetItem(name)
+            item.setSizeHint(QSize(0, _ROW_PX))
+            self._list.addItem(item)
         for widget in (self._who, self._list):
             widget.setVisible(bool(self._people))
         self._mark(self._person or self._last)

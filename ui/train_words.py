@@ -16,7 +16,6 @@ from gestureapp.guided.values import (
     Verdict,
 )
 from gestureapp.sensing.values import ArmPosture, StreamHealth
-from ui.marks import Level
 
 REST_STATES = (CellState.NOT_READY, CellState.READY, CellState.ARMED, CellState.STOPPED)
 """In these nothing moves; opening the training takes the permission back."""
@@ -152,17 +151,6 @@ def continue_text(snapshot: GuidedSnapshot) -> str:
         return f"{whole} All gestures are recorded."
     words = gesture(own.label).words
     return f"{whole} Next {own.label} {words}: {own.good} of {own.wanted}."
-
-
-def quality_level(quality: Quality) -> Level:
-    """The mark beside a gesture."""
-    return {
-        Quality.NONE: Level.OFF,
-        Quality.FEW: Level.OFF,
-        Quality.POOR: Level.ATTENTION,
-        Quality.FAIR: Level.OK,
-        Quality.GOOD: Level.OK,
-    }[quality]
 
 
 def quality_sign(quality: Quality) -> str:
