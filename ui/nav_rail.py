@@ -73,7 +73,7 @@ class NavButton(QAbstractButton):
         painter.setPen(QPen(colour, 2.2, c=Qt.PenCapStyle.RoundCap, j=Qt.PenJoinStyle.RoundJoin))
         _ICONS[self._place](painter, icon)
         font = QFont(self.font())
-        font.setPixelSize(TEXT_PX + 3)
+        font.setPixelSize(TEXT_PX + 2)
         font.setBold(True)
         painter.setFont(font)
         word = QRectF(0, 50, self.width(), 26)
