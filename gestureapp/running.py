@@ -19,6 +19,7 @@ from gestureapp.errors import ConfigError, RobotInUse
 from gestureapp.guided.guided import Guided
 from gestureapp.guided.trained import find_own_model
 from gestureapp.guided.trainer import Trainer
+from gestureapp.recording.people import last_person
 from gestureapp.recording.session_writer import SessionWriter
 from gestureapp.robot.lock import find_other
 from gestureapp.simulation.demo import DemoCell, DemoOptions
@@ -106,7 +107,7 @@ def running_cell(
         if last_time is not None:
             cell.tell(last_time.event)
         operator = emulators.operator if emulators is not None else None
-        if (own := find_own_model(folder, settings.person.name)) is not None:
+        if (own := find_own_model(folder, _first_person(settings, folder))) is not None:
             cell.use_model(*own)
         guided = Guided(cell, folder)
         opened.callback(guided.shutdown)
@@ -115,6 +116,12 @@ def running_cell(
         opened.callback(trainer.shutdown)
         trainer.start_thread()
         yield RunningCell(cell, operator, recorder, emulators, last_time, guided, trainer)
+
+
+def _first_person(settings: Settings, folder: Path) -> str:
+    """Whose own model the cell begins with: the settings' person, else who was chosen last."""
+    person = settings.person
+    return person.name or (last_person(folder) if person.model is None else "")
 
 
 def _refuse_second(robot: RobotSettings) -> None:

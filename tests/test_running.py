@@ -177,3 +177,7 @@ def test_a_model_trained_here_is_used_at_once_and_after_a_restart_until_the_take
 
     with running_cell(ana, tmp_path) as running:
         assert wait_until(lambda: model_blockers(running) == out_of_date)
+
+    with running_cell(Settings(), tmp_path) as running:  # who was chosen last is taken then
+        assert wait_until(lambda: running.cell.snapshot().person == "Ana")
+        assert model_blockers(running) == out_of_date
