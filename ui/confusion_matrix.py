@@ -17,9 +17,8 @@ _ROW_NAME_PX = 44
 _LEAST_CELL = (33, 20)
 _PERCENT_FROM_PX = 25
 """Cells at least this high have room for count and per cent below each other."""
-_PERCENT_BESIDE_PX = 66
-"""Cells at least this wide have room for both beside each other."""
-_LAST_SHARE = 1.55
+_LARGEST_PX = 20
+_LAST_SHARE = 1.85
 """The last column is wider than the others, for its name."""
 _FAINTEST = 0.12
 """Share of the colour in a cell that is nearly empty, so that a single take is still seen."""
@@ -143,18 +142,17 @@ class ConfusionMatrix(QWidget):
         if not text:
             return
         painter.setPen(readable_on(shade))
-        painter.setFont(self._font(TEXT_PX, is_bold=True))
-        if cell.height() >= _PERCENT_FROM_PX:
-            half = cell.height() / 2
-            upper = QRectF(cell.left(), cell.top() + 1, cell.width(), half)
-            lower = QRectF(cell.left() - 4, cell.top() + half - 1, cell.width() + 8, half)
-            painter.drawText(upper, Qt.AlignmentFlag.AlignCenter, text)
-            painter.setFont(self._font(SMALL_PX - 1))
-            painter.drawText(lower, Qt.AlignmentFlag.AlignCenter, percent)
-        elif cell.width() >= _PERCENT_BESIDE_PX:
-            painter.drawText(cell, Qt.AlignmentFlag.AlignCenter, f"{text} ({percent})")
-        else:
+        size = round(max(TEXT_PX, min(_LARGEST_PX, 0.42 * cell.height(), cell.width() / 3.2)))
+        painter.setFont(self._font(size, is_bold=True))
+        if cell.height() < _PERCENT_FROM_PX:
             painter.drawText(cell, Qt.AlignmentFlag.AlignCenter, text)
+            return
+        half = cell.height() / 2
+        upper = QRectF(cell.left(), cell.top() + 1, cell.width(), half)
+        lower = QRectF(cell.left() - 4, cell.top() + half - 1, cell.width() + 8, half)
+        painter.drawText(upper, Qt.AlignmentFlag.AlignCenter, text)
+        painter.setFont(self._font(size - 2))
+        painter.drawText(lower, Qt.AlignmentFlag.AlignCenter, percent)
 
     def _cells(self) -> QRectF:
         """Where the cells are."""
