@@ -1,5 +1,9 @@
 """The step Check: look at the takes, find the odd ones, and put them right."""
 
+from collections import deque
+from collections.abc import Callable
+from functools import partial
+
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import (
     QFrame,
@@ -30,8 +34,8 @@ _RIGHT_PX = 304
 class CheckStep(QWidget):
     """The takes of the person, gesture by gesture and all together. GUI thread only.
 
-    Takes are asked for again only when they have changed, and looked at one gesture a refresh: each
-    is a millisecond's work, all at once would hold the window up.
+    Takes are asked for again only when they have changed. What follows from that is done in jobs of
+    a few milliseconds, one a refresh: all at once would hold the window up.
 
     Args:
         guided: Whose takes; changes are asked of it.
@@ -47,8 +51,8 @@ class CheckStep(QWidget):
         self._takes: dict[int, Take] = {}
         self._numbers: dict[int, int] = {}
         self._checks: dict[str, GestureCheck] = {}
-        self._unseen: list[str] = []
-        self._is_map_old = False
+        self._unseen: set[str] = set()
+        self._jobs: deque[Callable[[], None]] = deque()
         self._held: int | None = None
         self._gestures = CheckGestures()
         self._curves = TakeCurves()
@@ -79,50 +83,62 @@ class CheckStep(QWidget):
             self._version = version
             self._labels = tuple(each.label for each in snapshot.progress)
             self._reload()
-        elif self._unseen:
-            self._look_at(self._unseen[0])
-        elif self._is_map_old:
-            self._show_map()
+        elif self._jobs:
+            self._jobs.popleft()()
         odd = {label: check.n_odd for label, check in self._checks.items()}
         self._gestures.show_progress(snapshot.progress, odd)
         if not self._gestures.label:
             self._gestures.choose(snapshot.label)
         self._show_whether_empty(snapshot)
 
+    @property
+    def is_settled(self) -> bool:
+        """Everything that is known is in sight."""
+        return not self._jobs
+
     def _reload(self) -> None:
-        """Ask for the takes, look at the gesture in sight at once and at the others later."""
+        """Ask for the takes; what is in sight is looked at first, then the map, then the rest."""
         self._takes = {take.id: take for take in self._guided.takes()}
         found = {take.label for take in self._takes.values()}
         self._labels += tuple(sorted(found - set(self._labels)))
         if self._held not in self._takes:
             self._compare.setChecked(False)
-        self._unseen = list(self._labels)
-        self._is_map_old = True
-        if self._gestures.label:
-            self._look_at(self._gestures.label)
+        self._unseen = set(self._labels)
+        self._jobs = deque([self._look_at_chosen, self._show_curves, self._show_list])
+        self._jobs.append(self._lay_out_map)
+        self._jobs.extend(partial(self._look_at, label) for label in self._labels)
 
     def _look_at(self, label: str) -> None:
-        if label in self._unseen:
-            self._unseen.remove(label)
+        if label not in self._unseen:
+            return
+        self._unseen.remove(label)
         takes = [take for take in self._takes.values() if take.label == label]
         check = self._checks[label] = check_gesture(label, takes)
         self._numbers.update({checked.take.id: checked.number for checked in check.takes})
-        if label == self._gestures.label:
-            self._show_gesture(label)
+
+    def _look_at_chosen(self) -> None:
+        self._look_at(self._gestures.label)
 
     def _show_gesture(self, label: str) -> None:
-        check = self._checks.get(label)
-        if check is None or label in self._unseen:
-            self._look_at(label)
-            return
-        self._curves.show_check(check, check_words(check))
-        self._list.show_check(check)
-        self._show_chosen()
+        self._look_at(label)
+        self._show_curves()
+        self._show_list()
 
-    def _show_map(self) -> None:
-        self._is_map_old = False
-        self._map.show_map(map_takes(list(self._takes.values())), self._labels)
-        self._show_chosen()
+    def _show_curves(self) -> None:
+        check = self._checks.get(self._gestures.label)
+        if check is not None:
+            self._curves.show_check(check, check_words(check))
+
+    def _show_list(self) -> None:
+        check = self._checks.get(self._gestures.label)
+        if check is not None:
+            self._list.show_check(check)
+            self._show_chosen()
+
+    def _lay_out_map(self) -> None:
+        labels = self._map.show_map(map_takes(list(self._takes.values())), self._labels)
+        drawings = [partial(self._map.draw, label) for label in labels]
+        self._jobs.extendleft(reversed([*drawings, self._show_chosen]))
 
     def _choose_take(self, take_id: int) -> None:
         """A take was clicked on the map, of whatever gesture."""

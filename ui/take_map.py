@@ -136,12 +136,15 @@ class TakeMapView(QWidget):
         x, y = self._map.points[self._map.ids.index(take_id)].tolist()
         return x, y
 
-    def show_map(self, take_map: TakeMap, order: tuple[str, ...]) -> None:
-        """Show other takes.
+    def show_map(self, take_map: TakeMap, order: tuple[str, ...]) -> tuple[str, ...]:
+        """Make room for other takes; ``draw`` puts each gesture's there.
 
         Args:
             take_map: The points.
             order: The gestures in the order of the legend.
+
+        Returns:
+            The gestures to draw.
         """
         self._map = take_map
         found = set(take_map.labels)
@@ -155,16 +158,20 @@ class TakeMapView(QWidget):
         )
         self._plot.setAccessibleName(f"Map of the takes. {self._title.text()}")
         self._make_items(labels)
-        where = np.array(take_map.labels)
-        for number, label in enumerate(labels):
-            mine = np.flatnonzero(where == label)
-            points = take_map.points[mine]
-            style = self._style(number, label)
-            ids = [take_map.ids[i] for i in mine]
-            self._spots[label].setData(pos=points, data=ids, size=_SIZE_PX, **style)
-            self._names[label].setPos(*np.median(points, axis=0).tolist())
-        self._colour_names()
         self._fit(take_map.points)
+        return labels
+
+    def draw(self, label: str) -> None:
+        """Draw the takes of one gesture of the map."""
+        if self._map is None:
+            return
+        mine = [i for i, other in enumerate(self._map.labels) if other == label]
+        points = self._map.points[mine]
+        style = self._style(list(self._spots).index(label), label)
+        ids = [self._map.ids[i] for i in mine]
+        self._spots[label].setData(pos=points, data=ids, size=_SIZE_PX, **style)
+        self._names[label].setPos(*np.median(points, axis=0).tolist())
+        self._colour_name(label)
 
     def highlight(self, label: str, chosen: tuple[int, ...]) -> None:
         """Draw one gesture stronger than the others, and a ring around the chosen takes."""
@@ -227,13 +234,13 @@ class TakeMapView(QWidget):
                 spots.setPen(style["pen"], update=False)
                 spots.setBrush(style["brush"])
                 spots.setZValue(10 if self._is_main(label) else 0)
-        self._colour_names()
+                self._colour_name(label)
 
-    def _colour_names(self) -> None:
+    def _colour_name(self, label: str) -> None:
         colours = colours_of(self.palette())
-        for label, name in self._names.items():
-            name.setColor(colours.text if self._is_main(label) else colours.muted)
-            name.fill = pg.mkBrush(_see_through(colours.base))
+        name = self._names[label]
+        name.setColor(colours.text if self._is_main(label) else colours.muted)
+        name.fill = pg.mkBrush(_see_through(colours.base))
 
     def _colour(self) -> None:
         colours = colours_of(self.palette())

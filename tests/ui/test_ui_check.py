@@ -66,7 +66,7 @@ class Desk:
 
     def settle(self) -> None:
         """Every gesture was looked at, and the map drawn."""
-        self.see(lambda: not self.step._unseen and not self.step._is_map_old)
+        self.see(lambda: self.step.is_settled)
 
     def text(self, name: str) -> str:
         return self.step.findChild(QLabel, name).text()
