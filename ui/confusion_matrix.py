@@ -142,7 +142,7 @@ class ConfusionMatrix(QWidget):
         if not text:
             return
         painter.setPen(readable_on(shade))
-        size = round(max(TEXT_PX, min(_LARGEST_PX, 0.42 * cell.height(), cell.width() / 3.2)))
+        size = self._number_px()
         painter.setFont(self._font(size, is_bold=True))
         if cell.height() < _PERCENT_FROM_PX:
             painter.drawText(cell, Qt.AlignmentFlag.AlignCenter, text)
@@ -153,6 +153,12 @@ class ConfusionMatrix(QWidget):
         painter.drawText(upper, Qt.AlignmentFlag.AlignCenter, text)
         painter.setFont(self._font(size - 2))
         painter.drawText(lower, Qt.AlignmentFlag.AlignCenter, percent)
+
+    def _number_px(self) -> int:
+        """As large as the narrow cells have room for, the same in all."""
+        cell = self._cell(0, 0)
+        fitting = min(0.42 * cell.height(), cell.width() / 3.2)
+        return round(max(TEXT_PX, min(_LARGEST_PX, fitting)))
 
     def _cells(self) -> QRectF:
         """Where the cells are."""

@@ -109,7 +109,7 @@ class TakeActions(QWidget):
         self._redo.clicked.connect(self._guided.redo)
 
     def add_keys(self, owner: QWidget) -> None:
-        """Let keys do the same wherever the focus is inside ``owner``."""
+        """Let keys do the same while ``owner`` is in sight, wherever the focus is."""
         keys = QKeySequence.StandardKey
         for key, button in (
             (QKeySequence(keys.Delete), self._delete),
@@ -117,7 +117,7 @@ class TakeActions(QWidget):
             (QKeySequence("Ctrl+Shift+Z"), self._redo),
         ):
             shortcut = QShortcut(key, owner)
-            shortcut.setContext(Qt.ShortcutContext.WidgetWithChildrenShortcut)
+            shortcut.setAutoRepeat(False)
             shortcut.activated.connect(button.click)
 
     def _lay_out(self) -> None:

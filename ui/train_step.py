@@ -121,14 +121,14 @@ class TrainStep(QWidget):
 
     def _start(self) -> None:
         self._loss.show_losses(())
-        self._trainer.start(list(Preset)[self._presets.checkedId()])
+        self._trainer.start(list(PRESET_WORDS)[self._presets.checkedId()])
 
     def _preset_chooser(self) -> QWidget:
         chooser = QWidget()
         layout = QVBoxLayout(chooser)
         layout.setContentsMargins(18, 0, 0, 0)
         layout.setSpacing(2)
-        for number, preset in enumerate(Preset):
+        for number, preset in enumerate(PRESET_WORDS):
             button = QRadioButton(PRESET_WORDS[preset])
             button.setObjectName(f"preset_{preset.value}")
             button.setAccessibleName(PRESET_WORDS[preset])

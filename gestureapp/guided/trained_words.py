@@ -27,6 +27,7 @@ OFTEN_CONFUSED = 0.08
 """Of two gestures' takes together, this share heard as the other one is worth a word."""
 OFTEN_REJECTED = 0.20
 MOST_HINTS = 3
+MOST_NAMED = 4
 MORE = "ten more"
 
 
@@ -78,6 +79,8 @@ def missing_words(labels: Iterable[str]) -> str:
     few = [f"{label} has {n}" for label, n in counts.items() if n < MIN_TAKES]
     if not few:
         return ""
+    if len(few) > MOST_NAMED:
+        few[MOST_NAMED:] = [f"{len(few) - MOST_NAMED} others have too few"]
     return (
         f"{', '.join(few)} good takes: at least {MIN_TAKES} of a gesture are needed; "
         "record more, or exclude those that are there"
