@@ -15,6 +15,7 @@ from gestureapp.config import (
     SensorSettings,
     Settings,
     SiteSettings,
+    TrainingSettings,
 )
 from gestureapp.robot.nx100 import NETWORK_INPUTS
 from gestureapp.settings_check import NARROWER, PAIRS, RANGES, named_values
@@ -178,6 +179,7 @@ _ALLOWED = (
         site=_tables(SiteSettings),
         robot=_tables(RobotSettings),
         person=_tables(PersonSettings),
+        training=_tables(TrainingSettings),
     )
     .map(_in_order)
     .filter(lambda made: not check_settings(made))

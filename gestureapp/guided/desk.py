@@ -14,13 +14,14 @@ from gestureapp.guided.arms import Arms, SensedCell
 from gestureapp.guided.sitting import Plan, Sitting
 from gestureapp.guided.tried_model import TriedModel
 from gestureapp.guided.trying import LiveTest
-from gestureapp.guided.values import GuidedSnapshot, Pace, Take, Trying
+from gestureapp.guided.values import GuidedSnapshot, Pace, Phase, Take, Trying
 from gestureapp.guided.verdict import LEVEL_DEG
 from gestureapp.guided.words import CHOOSE_PERSON
 from gestureapp.recording.people import clean_name, model_path, note_last_person
 
 WANTED_MIN: Final = 5
 WANTED_MAX: Final = 200
+_BUSY: Final = (Phase.COUNT_IN, Phase.WAITING, Phase.TAKING, Phase.SENSOR_LOST)
 
 
 class Desk:
@@ -61,6 +62,11 @@ class Desk:
         self._version = -1
         self.picture = GuidedSnapshot()
         self.takes: tuple[Take, ...] = ()
+
+    @property
+    def is_busy(self) -> bool:
+        """Something is recorded or tried: every tick counts."""
+        return self._test is not None or self.picture.phase in _BUSY
 
     def step(self) -> None:
         """One tick: take what has come, let time pass, draw the picture."""

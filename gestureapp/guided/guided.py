@@ -24,6 +24,9 @@ from gestureapp.recording.people import last_person, list_people
 from gestureapp.worker import Worker
 
 TICK_S: Final = 0.01
+"""While something is recorded or tried."""
+IDLE_TICK_S: Final = 0.05
+"""Otherwise: often enough for a level indicator, and hardly any work beside operation."""
 OPEN_LIMIT_S: Final = 5.0
 """A person's database opens within some ten milliseconds; a disk that takes longer is told."""
 
@@ -188,21 +191,17 @@ class Guided:
             raise RecordingError(self._data, reason) from error
 
     def _run(self, stopping: threading.Event) -> None:
-        next_s = monotonic()
         try:
             while not stopping.is_set():
-                self._grant(next_s - monotonic())
-                now_s = monotonic()
-                if now_s >= next_s:
-                    self._desk.step()
-                    next_s = now_s + TICK_S
+                self._grant(TICK_S if self._desk.is_busy else IDLE_TICK_S)
+                self._desk.step()
         finally:
             self._desk.close()
 
     def _grant(self, wait_s: float) -> None:
         """Wait for a wish at most so long, and fulfil it."""
         try:
-            wish = self._wishes.get(timeout=max(0.0, wait_s))
+            wish = self._wishes.get(timeout=wait_s)
         except queue.Empty:
             return
         wish(self._desk)
