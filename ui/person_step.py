@@ -1,6 +1,7 @@
 """Person: whose takes these are; continue as somebody, or begin with a new name."""
 
 from PySide6.QtCore import QSize, Qt, Signal
+from PySide6.QtGui import QShowEvent
 from PySide6.QtWidgets import (
     QFrame,
     QHBoxLayout,
@@ -86,6 +87,11 @@ class PersonStep(QWidget):
         for widget in (self._who, self._list):
             widget.setVisible(bool(self._people))
         self._mark(self._person or self._last)
+
+    def showEvent(self, event: QShowEvent) -> None:
+        """Somebody may have come in the meantime."""
+        super().showEvent(event)
+        self.refresh()
 
     def show_snapshot(self, snapshot: GuidedSnapshot) -> None:
         """Show who is chosen and how far that person is."""

@@ -1,5 +1,8 @@
 """The training's page: its steps across the top, the one in sight below."""
 
+from collections.abc import Callable
+from dataclasses import dataclass
+
 from PySide6.QtWidgets import QVBoxLayout, QWidget
 
 from gestureapp.cell.controls import CellControls
@@ -15,6 +18,14 @@ from ui.step_bar import StepBar
 from ui.train_step import TrainStep
 from ui.train_words import Step, is_running, step_states
 from ui.try_step import TryStep
+
+
+@dataclass(frozen=True, slots=True)
+class _Built:
+    """A step's widget, and how it is shown another moment of the training and of the cell."""
+
+    widget: QWidget
+    show: Callable[[GuidedSnapshot, Snapshot], None]
 
 
 class TrainPage(QWidget):
@@ -37,35 +48,18 @@ class TrainPage(QWidget):
         self.setObjectName("trainPage")
         self.step = Step.PERSON
         self.notice = ""
-        self._guided, self._trainer = guided, trainer
+        self._cell, self._guided, self._trainer = cell, guided, trainer
         self.newest = guided.snapshot()
         self._person = ""
         self._bar = StepBar()
-        self._person_step = PersonStep(guided, cell.settings.person.name)
-        self._sensors_step = SensorsStep(cell)
-        self._record_step = RecordStep(cell, guided)
-        self._steps: dict[Step, QWidget] = {
-            Step.PERSON: self._person_step,
-            Step.SENSORS: self._sensors_step,
-            Step.RECORD: self._record_step,
-        }
-        self._later_steps: dict[Step, CheckStep | TrainStep | TryStep] = {
-            Step.CHECK: CheckStep(guided),
-            Step.TRAIN: TrainStep(trainer),
-            Step.TRY: TryStep(guided, trainer),
-        }
-        self._steps.update(self._later_steps)
+        self._built: dict[Step, _Built] = {}
         self._stack = PageStack("trainSteps")
-        for widget in self._steps.values():
-            self._stack.addWidget(widget)
         layout = QVBoxLayout(self)
         layout.setContentsMargins(0, 0, 0, 0)
         layout.setSpacing(6)
         layout.addWidget(self._bar)
         layout.addWidget(self._stack, 1)
         self._bar.chosen.connect(self.go_to)
-        self._person_step.finished.connect(lambda: self.go_to(Step.SENSORS))
-        self._sensors_step.finished.connect(lambda: self.go_to(Step.RECORD))
 
     def show_snapshot(self, cell: Snapshot) -> None:
         """Show another moment of the cell and of the training."""
@@ -78,25 +72,15 @@ class TrainPage(QWidget):
             self._person = guided.person
             self._choose_pace(guided, cell)
         self.notice = _notice_of(guided)
-        match self.step:
-            case Step.PERSON:
-                self._person_step.show_snapshot(guided)
-            case Step.SENSORS:
-                self._sensors_step.show_snapshot(guided, cell)
-            case Step.RECORD:
-                self._record_step.show_snapshot(guided, cell)
-            case later if later in self._later_steps:
-                self._later_steps[later].show_snapshot(guided)
+        self._in_sight().show(guided, cell)
 
     def go_to(self, step: Step) -> None:
         """Show another step; a batch or a test under way is put on hold."""
         if step is not self.step:
             self.leave()
-        if step is Step.PERSON:
-            self._person_step.refresh()
         self.step = step
         self._bar.show_step(step)
-        self._stack.setCurrentWidget(self._steps[step])
+        self._in_sight()
         self.setFocus()  # else Space would press whatever Qt hands the focus to
 
     def leave(self) -> None:
@@ -105,6 +89,38 @@ class TrainPage(QWidget):
             self._guided.pause()
         if self.newest.trying.is_on:
             self._guided.stop_trying()
+
+    def _in_sight(self) -> _Built:
+        """The step to be seen; built when it is first wanted, so that no start waits for it."""
+        built = self._built.get(self.step)
+        if built is None:
+            built = self._built[self.step] = self._build(self.step)
+            self._stack.addWidget(built.widget)
+        self._stack.setCurrentWidget(built.widget)
+        return built
+
+    def _build(self, step: Step) -> _Built:
+        match step:
+            case Step.PERSON:
+                person = PersonStep(self._guided, self._cell.settings.person.name)
+                person.finished.connect(lambda: self.go_to(Step.SENSORS))
+                return _Built(person, lambda guided, _: person.show_snapshot(guided))
+            case Step.SENSORS:
+                sensors = SensorsStep(self._cell)
+                sensors.finished.connect(lambda: self.go_to(Step.RECORD))
+                return _Built(sensors, sensors.show_snapshot)
+            case Step.RECORD:
+                record = RecordStep(self._cell, self._guided)
+                return _Built(record, record.show_snapshot)
+            case Step.CHECK:
+                check = CheckStep(self._guided)
+                return _Built(check, lambda guided, _: check.show_snapshot(guided))
+            case Step.TRAIN:
+                train = TrainStep(self._trainer)
+                return _Built(train, lambda guided, _: train.show_snapshot(guided))
+            case Step.TRY:
+                tried = TryStep(self._guided, self._trainer)
+                return _Built(tried, lambda guided, _: tried.show_snapshot(guided))
 
     def _choose_pace(self, guided: GuidedSnapshot, cell: Snapshot) -> None:
         """By the beat where there is no left sensor; else as in operation."""
