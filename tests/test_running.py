@@ -162,6 +162,12 @@ def test_a_model_trained_here_is_used_at_once_and_after_a_restart_until_the_take
         assert wait_until(lambda: not model_blockers(running))
         words = "Ana, 12 gestures, not tried live"
         assert wait_until(lambda: running.cell.snapshot().model == words)
+        running.guided.open("Bea")  # another's model is not for these arms
+        assert wait_until(lambda: model_blockers(running) == ["no model is set for Bea"])
+        assert running.cell.snapshot().person == "Bea"
+        running.guided.open("Ana")
+        assert wait_until(lambda: running.cell.snapshot().model == words)
+        assert model_blockers(running) == []
 
     with running_cell(ana, tmp_path) as running:
         assert wait_until(lambda: running.cell.snapshot().model == words)

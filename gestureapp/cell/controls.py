@@ -43,12 +43,14 @@ class CellControls(Protocol):
     def servo_off(self) -> None:
         """The operator asks for servo power to go off; taken only while not armed."""
 
-    def use_model(self, path: Path, problem: str = "") -> None:
+    def use_model(self, path: Path | None, problem: str = "", person: str = "") -> None:
         """Recognise with another model, as soon as nothing may move.
 
         Args:
-            path: A model file. When it cannot be used, nothing can be armed, and it is said why.
+            path: A model file, or None when the person has none but the settings'. When it cannot
+                be used, nothing can be armed, and it is said why.
             problem: Why it is out of date, so that nothing can be armed with it; empty when not.
+            person: Whose arms it is for; empty when the model says so itself.
         """
 
     def hold_for_training(self, is_open: bool) -> None:

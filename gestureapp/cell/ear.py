@@ -34,15 +34,17 @@ class ModelInUse:
     person: str = ""
 
 
-def open_model(path: Path | None, problem: str = "") -> ModelInUse:
+def open_model(path: Path | None, problem: str = "", person: str = "") -> ModelInUse:
     """Open a model; what is wrong with it stands in the value.
 
     Args:
         path: Of its file; None when there is none.
-        problem: Why it is out of date; empty when it is not.
+        problem: Why it is out of date, or why there is none; empty when nothing is known.
+        person: Whose arms it is for; empty when the model says so itself.
     """
     if path is None:
-        return ModelInUse(None, problem="no model is set for this person")
+        why = problem or f"no model is set for {person or 'this person'}"
+        return ModelInUse(None, problem=why, person=person)
     try:
         model = load_model(path)
         unknown = sorted(set(model.labels) - set(LABELS))
@@ -53,7 +55,7 @@ def open_model(path: Path | None, problem: str = "") -> ModelInUse:
     except (ModelError, ValueError) as error:
         return ModelInUse(None, problem=str(error))
     words = describe_model(model, path.stem)
-    return ModelInUse(recogniser, words, problem, "train again", model.person)
+    return ModelInUse(recogniser, words, problem, "train again", person or model.person)
 
 
 def describe_model(model: Model, name: str = "") -> str:

@@ -146,9 +146,12 @@ class Cell:
         """The operator asks for servo power to go off."""
         self._control.put(ServoAsked(is_on=False))
 
-    def use_model(self, path: Path, problem: str = "") -> None:
-        """Recognise with another model, as soon as nothing may move."""
-        self._control.put(ModelChosen(open_model(path, problem)))
+    def use_model(self, path: Path | None, problem: str = "", person: str = "") -> None:
+        """Recognise with another model, once nothing may move; with none, nothing is armed."""
+        own = self.settings.person
+        if path is None and person == own.name:
+            path = own.model
+        self._control.put(ModelChosen(open_model(path, problem, person)))
 
     def hold_for_training(self, is_open: bool) -> None:
         """Training is open, or closed again; while it is open nothing can be armed."""

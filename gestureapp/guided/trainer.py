@@ -52,7 +52,8 @@ class Trainer:
     Args:
         source: Whose takes are open.
         data: The data folder.
-        use_model: Has the cell recognise with a model file; with it why it is out of date.
+        use_model: Has the cell recognise with a person's model file, or with none; with it why it
+            is out of date or missing, and the person.
         clock: Monotonic seconds.
         command: Starts the training child.
     """
@@ -61,7 +62,7 @@ class Trainer:
         self,
         source: TakesSource,
         data: Path,
-        use_model: Callable[[Path, str], None],
+        use_model: Callable[[Path | None, str, str], None],
         clock: Clock = monotonic,
         command: Sequence[str] = (),
     ) -> None:
@@ -129,8 +130,10 @@ class Trainer:
             self._view = replace(
                 view, result=known.result, out_of_date=known.out_of_date, text=text
             )
-        if known.path is not None and known.result is not None:
-            self._use_model(known.path, known.out_of_date)
+        if known.result is not None:
+            self._use_model(known.path, known.out_of_date, picture.person)
+        elif known.is_other_person and picture.person:  # another's model is not for these arms
+            self._use_model(None, known.trouble, picture.person)
 
     def _train(self, preset: Preset, seed: int) -> None:
         """One training, from the press to the written model."""

@@ -70,7 +70,7 @@ def make_trainer(tmp_path: Path, source: OpenTakes):
     made = []
 
     def make(**options: object) -> Trainer:
-        used: list[tuple[Path, str]] = []
+        used: list[tuple[Path | None, str, str]] = []
         trainer = Trainer(source, tmp_path, lambda *told: used.append(told), **options)
         trainer.used = used
         made.append(trainer)
@@ -127,7 +127,7 @@ def test_a_training_ends_with_a_model_for_the_person_and_its_figures(
     assert (model.person, model.labels) == ("Ana", ("X+", "X-", "Y+"))
     assert model.training.takes_from == "36 takes of Ana in 2 sittings"
     assert model.training.duration_s == view.result.duration_s > 0.0
-    assert trainer.used[-1] == (path, "")
+    assert trainer.used[-1] == (path, "", "Ana")
 
 
 def test_the_result_is_there_after_a_restart_and_changed_takes_put_it_out_of_date(
@@ -146,11 +146,11 @@ def test_the_result_is_there_after_a_restart_and_changed_takes_put_it_out_of_dat
     path = model_path(tmp_path, "Ana")
     source.change(3, is_excluded=True)
     assert until(lambda: again.view().out_of_date == TAKES_CHANGED)
-    assert until(lambda: again.used[-1] == (path, TAKES_CHANGED))
+    assert until(lambda: again.used[-1] == (path, TAKES_CHANGED, "Ana"))
 
     source.change(3, is_excluded=False)
     assert until(lambda: again.view().out_of_date == "")
-    assert until(lambda: again.used[-1] == (path, ""))
+    assert until(lambda: again.used[-1] == (path, "", "Ana"))
 
     for number, take in enumerate(source.all):
         if take.label == "Y+":
@@ -259,8 +259,11 @@ def test_a_damaged_model_is_told_and_another_person_has_none(make_trainer, until
     trainer = make_trainer()
 
     assert until(lambda: "is not a model" in trainer.view().text)
-    assert not trainer.used
+    ((path, problem, person),) = trainer.used
+    assert (path, person) == (None, "Ana")
+    assert "is not a model" in problem
 
     source.person = "Bea"
     assert until(lambda: trainer.view().text == "")
+    assert trainer.used[-1] == (None, "", "Bea")
     assert trainer.view().result is None

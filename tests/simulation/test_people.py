@@ -66,7 +66,7 @@ def peak_g(length_m: float, duration_s: float) -> float:
 def test_everybody_is_as_quick_as_hands_are_and_within_the_sensors_range(seed, index):
     person = draw_person(seed, index)
 
-    assert all(0.3 < peak_g(reach, person.duration_s) < 2.0 for reach in person.reach_m)
+    assert all(0.15 < peak_g(reach, person.duration_s) < 3.0 for reach in person.reach_m)
     assert 0.1 < peak_g(person.yaw_radius_m * person.yaw_rad, person.yaw_s) < 2.0
 
 

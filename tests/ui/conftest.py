@@ -218,7 +218,7 @@ class FakeCell:
     def servo_off(self) -> None:
         self.calls.append("servo_off")
 
-    def use_model(self, path: Path, problem: str = "") -> None:
+    def use_model(self, path: Path | None, problem: str = "", person: str = "") -> None:
         self.calls.append(f"use_model {path} {problem}".strip())
 
     def hold_for_training(self, is_open: bool) -> None:

@@ -50,7 +50,7 @@ def desk(qtbot, tmp_path) -> Iterator[Desk]:
     guided = Guided(SensedArms(Settings()), tmp_path)
     guided.start_thread()
     guided.open(PERSON)
-    trainer = Trainer(guided, tmp_path, lambda path, problem: None)
+    trainer = Trainer(guided, tmp_path, lambda *told: None)
     trainer.start_thread()
     yield Desk(qtbot, guided, trainer)
     trainer.shutdown()
