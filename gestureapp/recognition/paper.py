@@ -114,7 +114,9 @@ class PaperRecogniser:
         start_s = self._window[0][0] if self._window else activation_s
         end_s = self._window[-1][0] if self._window else activation_s
         self.cancel()
-        return Recognition(activation_id, label, reason, outputs, start_s, end_s, t_s)
+        return Recognition(
+            activation_id, label, reason, outputs, start_s, end_s, t_s, thresholds=(THRESHOLD,)
+        )
 
 
 def judge(outputs: tuple[Candidate, ...]) -> tuple[str | None, str]:

@@ -1,7 +1,10 @@
 """What a recogniser takes and gives."""
 
 from dataclasses import dataclass
-from typing import Protocol
+from typing import Final, Protocol
+
+NO_GESTURE: Final = "none"
+"""The candidate that stands for "nothing I know"; where there is one, it is the last output."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -20,10 +23,15 @@ class Recognition:
         activation_id: Which activation it answers.
         label: The gesture, or None for "not recognised".
         reason: Empty with a label; else why nothing was recognised, in words.
-        outputs: All candidates in the order of the model's labels; empty when no network was asked.
+        outputs: All candidates in the order of the model's labels, then ``NO_GESTURE`` where the
+            network has an output for it; empty when no network was asked.
         window_start_s: Receive time of the first sample used.
         window_end_s: Receive time of the last sample used.
         decided_s: When the answer was there, monotonic clock.
+        onset_s: When the right arm's own movement began; None for a posture, and where the
+            recogniser does not look for it.
+        thresholds: The confidence that an answer needed, 0 to 1: one, or that for an answer at
+            once and then that at the end of the time; empty when unknown.
     """
 
     activation_id: int
@@ -33,6 +41,8 @@ class Recognition:
     window_start_s: float
     window_end_s: float
     decided_s: float
+    onset_s: float | None = None
+    thresholds: tuple[float, ...] = ()
 
     @property
     def best(self) -> tuple[Candidate, ...]:
