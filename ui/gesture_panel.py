@@ -10,7 +10,7 @@ from ui.direction_view import DirectionView
 from ui.labels import BigWord, plain
 from ui.output_bars import OutputBars
 from ui.theme import LARGE_PX, SMALL_PX, TEXT_PX, sized
-from ui.words import decision_text, not_recognised_text
+from ui.words import decision_text, needed_text, not_recognised_text
 
 NOTHING = ""
 """The big label before the first gesture."""
@@ -64,7 +64,10 @@ class GesturePanel(QFrame):
             return
         self._shown = (recognition, direction)
         self._arrow.show_direction(direction)
-        self._bars.show_outputs(recognition.outputs if recognition is not None else ())
+        if recognition is None:
+            self._bars.show_outputs(())
+        else:
+            self._bars.show_outputs(recognition.outputs, recognition.thresholds)
         if recognition is None:
             self._show(NOTHING, "no gesture yet", None, "")
         elif recognition.label is None:
@@ -73,17 +76,20 @@ class GesturePanel(QFrame):
         else:
             certainty = _certainty_of(recognition)
             words = _words_of(recognition.label)
-            self._show(recognition.label, words, certainty, decision_text(recognition))
+            needed = needed_text(certainty, recognition.thresholds)
+            self._show(recognition.label, words, certainty, decision_text(recognition), needed)
 
-    def _show(self, label: str, words: str, certainty: float | None, time: str) -> None:
+    def _show(
+        self, label: str, words: str, certainty: float | None, time: str, needed: str = ""
+    ) -> None:
         """``certainty`` is None where nothing was recognised: the bar then says nothing."""
         self._label.setText(label)
         self._label.setAccessibleName(f"Recognised gesture: {label} {words}")
         self._words.setText(words)
         percent = round(100 * min(1.0, max(0.0, certainty or 0.0)))
         self._certainty.setValue(percent)
-        self._certainty.setFormat("" if certainty is None else f"certainty {certainty:.2f}")
-        self._certainty.setAccessibleName(f"Certainty {percent} %")
+        self._certainty.setFormat("" if certainty is None else f"certainty {certainty:.2f}{needed}")
+        self._certainty.setAccessibleName(f"Certainty {percent} %{needed}")
         self._time.setText(time)
 
 

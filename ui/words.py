@@ -223,17 +223,32 @@ def pose_age_text(robot: RobotView) -> str:
 
 
 def decision_text(recognition: Recognition) -> str:
-    """How long the decision took, from the samples to the answer."""
+    """How long the decision took: from the onset where it is known, else from the samples."""
+    if recognition.onset_s is not None:
+        onset_ms = (recognition.decided_s - recognition.onset_s) * 1000
+        return f"decided {onset_ms:.0f} ms after the onset of the movement"
     first_ms = (recognition.decided_s - recognition.window_start_s) * 1000
     last_ms = (recognition.decided_s - recognition.window_end_s) * 1000
     return f"decided {first_ms:.0f} ms after the first sample, {last_ms:.0f} ms after the last"
 
 
+def needed_text(certainty: float, thresholds: tuple[float, ...]) -> str:
+    """What the certainty of an answer had to reach, to stand behind it; empty when unknown."""
+    if not thresholds:
+        return ""
+    if len(thresholds) == 1:
+        return f", needed {thresholds[0]:.2f}"
+    at_once, in_the_end = max(thresholds), min(thresholds)
+    if certainty >= at_once:
+        return f", needed {at_once:.2f} at once"
+    return f", needed {in_the_end:.2f} in the end"
+
+
 def not_recognised_text(recognition: Recognition) -> str:
-    """Why nothing was recognised, with the two best."""
+    """Why nothing was recognised, with the two best where the reason does not name them."""
     best = ", ".join(f"{c.label}\u00a0{c.confidence:.2f}" for c in recognition.best)
     reason = recognition.reason or "no clear gesture"
-    return f"{reason} ({best})" if best else reason
+    return f"{reason} ({best})" if best and not reason.endswith(")") else reason
 
 
 def time_text(event: EventLine) -> str:

@@ -103,7 +103,13 @@ SCHEMAS: Final[Mapping[Topic, Schema]] = {
             "window_start_s": _number("receive time of the first sample used, s"),
             "window_end_s": _number("receive time of the last sample used, s"),
             "decided_s": _number("when the answer was there, s"),
+            "onset_s": _number("when the right arm's movement began, s; null when not looked for"),
+            "thresholds": {
+                **_field("array", "confidence an answer needed: at once, then in the end"),
+                "items": _field("number", "0 to 1"),
+            },
         },
+        optional=("onset_s", "thresholds"),
     ),
     Topic.COMMAND: _schema("Asked of, let through or refused by the guardian", _WORDS_AND_FIELDS),
     Topic.ROBOT: _schema(

@@ -21,7 +21,7 @@ from gestureapp.cell.snapshot import (
 )
 from gestureapp.config import Settings
 from gestureapp.gestures import LABELS
-from gestureapp.recognition.values import Candidate, Recognition
+from gestureapp.recognition.values import NO_GESTURE, Candidate, Recognition
 from gestureapp.robot.values import Direction, Pose, PoseIncrement, RobotStatus
 from gestureapp.sensing.store import SampleStore
 from gestureapp.sensing.values import ArmPosture, LinkState, Sample, Side, StreamHealth
@@ -51,14 +51,32 @@ def healthy(side: Side) -> StreamHealth:
 
 def recognised(label: str, activation_id: int = 1) -> Recognition:
     outputs = tuple(Candidate(each, 0.93 if each == label else 0.04) for each in LABELS)
-    return Recognition(activation_id, label, "", outputs, NOW_S - 0.5, NOW_S - 0.48, NOW_S - 0.478)
+    used = (NOW_S - 0.5, NOW_S - 0.48, NOW_S - 0.478)
+    return Recognition(activation_id, label, "", outputs, *used, thresholds=(0.5,))
+
+
+def followed(label: str | None, confidence: float, reason: str = "") -> Recognition:
+    """An answer of the recogniser that follows the movement from its onset."""
+    shares = {label or "Y+": confidence, "RZ+": 0.41, NO_GESTURE: 0.02}
+    outputs = tuple(Candidate(each, shares.get(each, 0.0)) for each in (*LABELS, NO_GESTURE))
+    used = (NOW_S - 0.54, NOW_S - 0.48, NOW_S - 0.478)
+    return Recognition(
+        3, label, reason, outputs, *used, onset_s=NOW_S - 0.54, thresholds=(0.95, 0.6)
+    )
 
 
 def not_recognised() -> Recognition:
     shares = {"X+": 0.48, "RY-": 0.41}
     outputs = tuple(Candidate(each, shares.get(each, 0.03)) for each in LABELS)
     return Recognition(
-        2, None, "no clear gesture", outputs, NOW_S - 0.5, NOW_S - 0.48, NOW_S - 0.478
+        2,
+        None,
+        "no clear gesture",
+        outputs,
+        NOW_S - 0.5,
+        NOW_S - 0.48,
+        NOW_S - 0.478,
+        thresholds=(0.5,),
     )
 
 
@@ -280,6 +298,7 @@ def scenes() -> SimpleNamespace:
         moving=moving,
         recognised=recognised,
         not_recognised=not_recognised,
+        followed=followed,
         events=events,
         healthy=healthy,
         now_s=NOW_S,

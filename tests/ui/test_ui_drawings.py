@@ -289,7 +289,19 @@ def test_a_bar_over_the_threshold_stands_out(qtbot, scenes):
         image = bars.grab().toImage()
         return sum(image.pixelColor(x, 60).name() == info for x in range(300))
 
-    bars.show_outputs(scenes.not_recognised().outputs)
-    assert coloured() == 0
-    bars.show_outputs(scenes.recognised("X+").outputs)
-    assert 10 < coloured() < 25
+    def show(answer) -> int:
+        bars.show_outputs(answer.outputs, answer.thresholds)
+        return coloured()
+
+    assert show(scenes.not_recognised()) == 0
+    assert 10 < show(scenes.recognised("X+")) < 25
+    assert 10 < show(scenes.followed("Y+", 0.7)) < 25
+    assert show(scenes.followed(None, 0.55)) == 0
+
+
+def test_the_bars_say_what_an_answer_needs_and_that_it_may_be_none(qtbot, scenes):
+    bars = OutputBars()
+    qtbot.addWidget(bars)
+    answer = scenes.followed("Y+", 0.97)
+    bars.show_outputs(answer.outputs, answer.thresholds)
+    assert bars.accessibleName().endswith("none 0.02; needed: 0.95 or 0.60")

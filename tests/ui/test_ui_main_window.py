@@ -134,6 +134,22 @@ def test_not_recognised_names_the_two_best(window, cell, scenes):
     assert words == "not recognised: no clear gesture (X+ 0.48, RY- 0.41)"
 
 
+def test_an_answer_from_the_onset_says_how_long_it_took_and_what_it_needed(window, cell, scenes):
+    for certainty, needed in ((0.97, "0.95 at once"), (0.7, "0.60 in the end")):
+        answer = scenes.followed("Y+", certainty)
+        show(window, cell, replace(cell.shown, recognition=answer))
+        assert text_of(window, "decisionLabel") == "decided 62 ms after the onset of the movement"
+        bar = window.findChild(QProgressBar, "certaintyBar")
+        assert bar.format() == f"certainty {certainty:.2f}, needed {needed}"
+
+
+def test_two_candidates_are_named_once(window, cell, scenes):
+    answer = scenes.followed(None, 0.47, "two candidates (Y+ 0.47, RZ+ 0.41)")
+    show(window, cell, replace(cell.shown, recognition=answer))
+    words = text_of(window, "gestureWords")
+    assert words == "not recognised: two candidates (Y+ 0.47, RZ+ 0.41)"
+
+
 def test_a_move_is_told_before_and_while_it_runs(window, cell, scenes):
     show(window, cell, scenes.moving(share=0.4))
     assert text_of(window, "motionTitle") == "The robot moves"
