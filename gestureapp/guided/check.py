@@ -18,7 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gestureapp.guided.values import Take
-from gestureapp.recognition.model_file import WINDOW_SAMPLES
+from gestureapp.recognition.model_weights import WINDOW_SAMPLES
 
 F64 = NDArray[np.float64]
 

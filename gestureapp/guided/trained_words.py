@@ -15,6 +15,7 @@ from enum import Enum
 
 import numpy as np
 
+from gestureapp.recognition.ensemble import Ensemble
 from gestureapp.recognition.evaluation import Evaluation
 from gestureapp.recognition.model_file import Model
 from gestureapp.recognition.presets import MIN_TAKES
@@ -90,10 +91,9 @@ def missing_words(labels: Iterable[str]) -> str:
 def facts_of(model: Model) -> tuple[tuple[str, str], ...]:
     """The technical part: name and value, in the order to show."""
     record, validation = model.training, model.cross_validation
-    inputs, hidden, outputs = model.shape
     facts = [
         ("preset", record.preset),
-        ("network", f"{inputs}-{hidden}-{outputs}, sigmoid"),
+        ("network", _network_words(model)),
         ("takes", str(record.n_takes)),
         ("from", record.takes_from),
         ("passes", f"{record.cycles:,}"),
@@ -111,6 +111,13 @@ def facts_of(model: Model) -> tuple[tuple[str, str], ...]:
         answer = f"{median:.0f} ms after the activation, 95 % within {p95:.0f} ms"
         facts[4:4] = [("cross-validated", validation.folds), ("answer", answer)]
     return tuple((name, value) for name, value in facts if value)
+
+
+def _network_words(model: Model) -> str:
+    layers = "-".join(map(str, model.shape))
+    if isinstance(model.network, Ensemble):
+        return f"{layers}, rectified, softmax, mean of {model.network.members}"
+    return f"{layers}, sigmoid"
 
 
 def _hints(evaluation: Evaluation) -> Iterable[_Hint]:

@@ -1,32 +1,43 @@
 """Model files: a trained network with what made it, as readable JSON."""
 
 import json
-import math
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 from typing import NoReturn
 
 import numpy as np
-from numpy.typing import NDArray
 
 from gestureapp.errors import ModelInvalid
+from gestureapp.recognition.decision import Decision
+from gestureapp.recognition.ensemble import Ensemble
 from gestureapp.recognition.evaluation import Evaluation
+from gestureapp.recognition.fields import (
+    LARGEST_COUNT,
+    count_in,
+    labels_in,
+    number_in,
+    object_in,
+    table_in,
+    text_in,
+)
 from gestureapp.recognition.files import write_atomically
+from gestureapp.recognition.model_weights import (
+    decision_in,
+    decision_of,
+    network_in,
+    weights_of,
+)
 from gestureapp.recognition.network import Network
 
 FORMAT = "gestureapp model"
 SCHEMA = 1
-KIND_PAPER = "paper"
-WINDOW_SAMPLES = 3
-"""Samples of the right arm that the network of kind ``paper`` sees. Source: paper, IV.B."""
 INPUT_PAPER = (
     "specific force in g of the first three samples at or after the activation: "
     "x, y, z of the first, then of the second, then of the third"
 )
 LARGEST_FILE = 16_000_000
-"""Bytes; a model takes some 10 kB."""
-LARGEST_COUNT = 10**9
+"""Bytes; a model takes some 10 kB, of kind ``onset`` some 500 kB."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -105,8 +116,9 @@ class Model:
     """A trained network, for one person and one gesture set.
 
     Attributes:
-        kind: Which recogniser it is for: ``paper``.
-        labels: The gestures, in the order of the outputs.
+        kind: Which recogniser it is for: ``paper`` or ``onset``.
+        labels: The gestures, in the order of the outputs. A network of kind ``onset`` has one
+            output more, the last: "none of them".
         network: The weights.
         person: Whose takes it was trained from; empty when unknown or several.
         training: What made it.
@@ -116,11 +128,12 @@ class Model:
         input_words: What the inputs are.
         cross_validation: How networks like this one did on unseen takes, or None when not known.
         live: How it did when it was tried, or None before.
+        decision: How sure is sure enough; with kind ``onset`` only.
     """
 
     kind: str
     labels: tuple[str, ...]
-    network: Network
+    network: Network | Ensemble
     person: str
     training: TrainingRecord
     takes_fingerprint: str
@@ -129,10 +142,11 @@ class Model:
     input_words: str = INPUT_PAPER
     cross_validation: CrossValidation | None = None
     live: LiveFigure | None = None
+    decision: Decision | None = None
 
     @property
-    def shape(self) -> tuple[int, int, int]:
-        """Number of inputs, hidden neurons and outputs."""
+    def shape(self) -> tuple[int, ...]:
+        """Number of inputs, of each hidden layer's neurons, and of outputs."""
         return self.network.shape
 
 
@@ -150,19 +164,16 @@ def save_model(path: Path, model: Model) -> None:
         "kind": model.kind,
         "person": model.person,
         "labels": list(model.labels),
-        "shape": list(model.shape),
+        "shape": list(network.shape),
         "input": model.input_words,
         "training": asdict(model.training),
         "takes_fingerprint": model.takes_fingerprint,
         "app_version": model.app_version,
         "created": model.created,
-        "weights": {
-            "hidden": network.hidden.tolist(),
-            "hidden_bias": network.hidden_bias.tolist(),
-            "output": network.output.tolist(),
-            "output_bias": network.output_bias.tolist(),
-        },
+        "weights": weights_of(network),
     }
+    if model.decision is not None:
+        content["decision"] = decision_of(model.decision)
     if model.cross_validation is not None:
         content["cross_validation"] = _plain(model.cross_validation)
     if model.live is not None:
@@ -234,51 +245,35 @@ def _read_object(path: Path) -> Mapping[str, object]:
 
 
 def _model(content: Mapping[str, object]) -> Model:
-    kind = _text(content, "kind")
-    if kind != KIND_PAPER:
-        raise ValueError(f"unknown kind {kind!r}")
-    labels = _labels(content.get("labels"))
-    weights = _object(content, "weights")
-    network = Network(
-        hidden=_table(weights, "hidden", 2),
-        hidden_bias=_table(weights, "hidden_bias", 1),
-        output=_table(weights, "output", 2),
-        output_bias=_table(weights, "output_bias", 1),
-    )
-    if list(network.shape) != content.get("shape"):
-        raise ValueError(
-            f"'shape' says {content.get('shape')!r}, the weights {list(network.shape)}"
-        )
-    if network.shape[0] != 3 * WINDOW_SAMPLES:
-        raise ValueError(f"it has {network.shape[0]} inputs, expected {3 * WINDOW_SAMPLES}")
-    if network.shape[2] != len(labels):
-        raise ValueError(f"{network.shape[2]} outputs for {len(labels)} labels")
+    kind, labels = text_in(content, "kind"), labels_in(content.get("labels"))
+    network = network_in(content, kind, len(labels))
     return Model(
         kind=kind,
         labels=labels,
         network=network,
-        person=_text(content, "person"),
-        training=_training(_object(content, "training")),
-        takes_fingerprint=_text(content, "takes_fingerprint"),
-        app_version=_text(content, "app_version"),
-        created=_text(content, "created"),
-        input_words=_text(content, "input"),
+        person=text_in(content, "person"),
+        training=_training(object_in(content, "training")),
+        takes_fingerprint=text_in(content, "takes_fingerprint"),
+        app_version=text_in(content, "app_version"),
+        created=text_in(content, "created"),
+        input_words=text_in(content, "input"),
         cross_validation=_cross_validation(content),
         live=_live(content),
+        decision=decision_in(content, kind),
     )
 
 
 def _training(record: Mapping[str, object]) -> TrainingRecord:
     return TrainingRecord(
-        preset=_text(record, "preset"),
-        rule=_text(record, "rule"),
-        cycles=int(_number(record, "cycles")),
-        learning_rate=_number(record, "learning_rate"),
-        seed=int(_number(record, "seed")),
-        n_takes=int(_number(record, "n_takes")),
-        loss=_number(record, "loss"),
-        duration_s=_number(record, "duration_s"),
-        takes_from=_text(record, "takes_from"),
+        preset=text_in(record, "preset"),
+        rule=text_in(record, "rule"),
+        cycles=int(number_in(record, "cycles")),
+        learning_rate=number_in(record, "learning_rate"),
+        seed=int(number_in(record, "seed")),
+        n_takes=int(number_in(record, "n_takes")),
+        loss=number_in(record, "loss"),
+        duration_s=number_in(record, "duration_s"),
+        takes_from=text_in(record, "takes_from"),
     )
 
 
@@ -286,81 +281,27 @@ def _cross_validation(content: Mapping[str, object]) -> CrossValidation | None:
     """Absent in files of older versions."""
     if content.get("cross_validation") is None:
         return None
-    found = _object(content, "cross_validation")
-    labels, times = _labels(found.get("labels")), _object(found, "decision_ms")
-    counts = _table(found, "confusion", 2)
+    found = object_in(content, "cross_validation")
+    labels, times = labels_in(found.get("labels")), object_in(found, "decision_ms")
+    counts = table_in(found, "confusion", 2)
     if counts.shape != (len(labels), len(labels) + 1):
         raise ValueError(f"'confusion' has shape {counts.shape} for {len(labels)} labels")
     if np.any(counts < 0) or np.any(counts != np.floor(counts)) or np.any(counts > LARGEST_COUNT):
         raise ValueError("'confusion' must hold counts")
-    took_ms = (_number(times, "median"), _number(times, "p95"))
+    took_ms = (number_in(times, "median"), number_in(times, "p95"))
     evaluation = Evaluation(labels, counts.astype(np.int64), took_ms)
-    return CrossValidation(evaluation, _text(found, "folds"))
+    return CrossValidation(evaluation, text_in(found, "folds"))
 
 
 def _live(content: Mapping[str, object]) -> LiveFigure | None:
     """Absent in files of older versions, and before the model was tried."""
     if content.get("live") is None:
         return None
-    found = _object(content, "live")
+    found = object_in(content, "live")
     n, recognised, wrong, rejected = (
-        _count(found, name) for name in ("n", "recognised", "wrong", "rejected")
+        count_in(found, name) for name in ("n", "recognised", "wrong", "rejected")
     )
-    return LiveFigure(n, recognised, wrong, rejected, _text(found, "when"))
-
-
-def _labels(value: object) -> tuple[str, ...]:
-    if not isinstance(value, list) or not value:
-        raise ValueError("'labels' is missing")
-    if not all(isinstance(label, str) and label for label in value):
-        raise ValueError("'labels' must hold texts")
-    if len(set(value)) != len(value):
-        raise ValueError("'labels' names a gesture twice")
-    return tuple(value)
-
-
-def _object(content: Mapping[str, object], name: str) -> Mapping[str, object]:
-    value = content.get(name)
-    if not isinstance(value, dict):
-        raise ValueError(f"'{name}' is missing")
-    return value
-
-
-def _text(content: Mapping[str, object], name: str) -> str:
-    value = content.get(name)
-    if not isinstance(value, str):
-        raise ValueError(f"'{name}' must be a text")
-    return value
-
-
-def _number(content: Mapping[str, object], name: str) -> float:
-    value = content.get(name)
-    if isinstance(value, bool) or not isinstance(value, int | float):
-        raise ValueError(f"'{name}' must be a number")
-    try:
-        number = float(value)
-    except OverflowError as error:
-        raise ValueError(f"'{name}' is too large") from error
-    if not math.isfinite(number):
-        raise ValueError(f"'{name}' is not finite")
-    return number
-
-
-def _count(content: Mapping[str, object], name: str) -> int:
-    number = _number(content, name)
-    if number != int(number) or not 0 <= number <= LARGEST_COUNT:
-        raise ValueError(f"'{name}' must be a count")
-    return int(number)
-
-
-def _table(weights: Mapping[str, object], name: str, ndim: int) -> NDArray[np.float64]:
-    try:
-        table = np.array(weights.get(name))
-        if table.ndim != ndim or table.dtype.kind not in "fi":
-            raise ValueError(f"'{name}' must be numbers in {ndim} dimensions")
-        return table.astype(np.float64)
-    except (TypeError, OverflowError) as error:
-        raise ValueError(f"'{name}' cannot be used") from error
+    return LiveFigure(n, recognised, wrong, rejected, text_in(found, "when"))
 
 
 def _refuse_constant(name: str) -> NoReturn:

@@ -6,7 +6,8 @@ from collections import deque
 import numpy as np
 from numpy.typing import NDArray
 
-from gestureapp.recognition.model_file import KIND_PAPER, WINDOW_SAMPLES, Model
+from gestureapp.recognition.model_file import Model
+from gestureapp.recognition.model_weights import KIND_PAPER, WINDOW_SAMPLES
 from gestureapp.recognition.values import Candidate, Recognition
 
 THRESHOLD = 0.5

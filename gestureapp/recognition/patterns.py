@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from gestureapp.errors import NotEnoughTakes
 from gestureapp.gestures import LABELS
-from gestureapp.recognition.model_file import WINDOW_SAMPLES
+from gestureapp.recognition.model_weights import WINDOW_SAMPLES
 from gestureapp.recognition.presets import MIN_TAKES
 from gestureapp.recognition.takes import TakeSet
 

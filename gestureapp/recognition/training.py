@@ -18,12 +18,11 @@ from gestureapp.clock import Clock, monotonic
 from gestureapp.recognition.folds import Division, FoldBy, divide
 from gestureapp.recognition.hearing import count_answers, hear
 from gestureapp.recognition.model_file import (
-    KIND_PAPER,
-    WINDOW_SAMPLES,
     CrossValidation,
     Model,
     TrainingRecord,
 )
+from gestureapp.recognition.model_weights import KIND_PAPER, WINDOW_SAMPLES
 from gestureapp.recognition.network import Network
 from gestureapp.recognition.network_batch import (
     AdamSteps,

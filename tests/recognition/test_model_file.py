@@ -1,5 +1,6 @@
 import json
 from dataclasses import replace
+from itertools import pairwise
 
 import numpy as np
 import pytest
@@ -7,6 +8,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from gestureapp.errors import ModelInvalid
+from gestureapp.recognition.decision import Decision
+from gestureapp.recognition.ensemble import Ensemble, Layer
 from gestureapp.recognition.evaluation import tally
 from gestureapp.recognition.model_file import (
     CrossValidation,
@@ -18,6 +21,7 @@ from gestureapp.recognition.model_file import (
     with_live,
 )
 from gestureapp.recognition.network import Network
+from gestureapp.recognition.window import INPUT_ONSET, N_INPUTS
 
 LIVE = LiveFigure(n=60, recognised=56, wrong=1, rejected=3, when="2026-01-02T00:00:00+00:00")
 RECORD = TrainingRecord("paper", "by hand", 100_000, 0.25, 3, 360, 0.001, 7.5, "somewhere")
@@ -42,6 +46,31 @@ def model_of():
         ),
         live=LIVE,
     )
+
+
+def onset_model_of(members=2, hidden=(3, 2)):
+    rng = np.random.default_rng(1)
+    sizes = (N_INPUTS, *hidden, 3)
+    layers = tuple(
+        Layer(rng.normal(0, 1, (members, a, b)), rng.normal(0, 1, (members, b)))
+        for a, b in pairwise(sizes)
+    )
+    network = Ensemble(
+        rng.normal(0, 1, (members, N_INPUTS)), rng.uniform(0.1, 1, (members, N_INPUTS)), layers, 0.7
+    )
+    return replace(
+        model_of(),
+        kind="onset",
+        network=network,
+        input_words=INPUT_ONSET,
+        decision=Decision(early=0.96, last=0.6, onset_g=0.14),
+    )
+
+
+@pytest.fixture
+def onset_path(tmp_path):
+    save_model(tmp_path / "onset.json", onset_model_of())
+    return tmp_path / "onset.json"
 
 
 @pytest.fixture
@@ -69,6 +98,51 @@ def test_a_model_written_and_read_is_the_same_to_the_last_bit(path):
     heard, meant = back.cross_validation, made.cross_validation
     assert heard.folds == meant.folds
     assert heard.evaluation.as_json() == meant.evaluation.as_json()
+
+
+def test_an_onset_model_written_and_read_hears_the_same(onset_path):
+    back, made = load_model(onset_path), onset_model_of()
+
+    inputs = np.random.default_rng(2).normal(0, 1, (50, N_INPUTS))
+    assert np.array_equal(back.network.outputs(inputs), made.network.outputs(inputs))
+    assert np.array_equal(back.network.outputs(inputs)[7], made.network.outputs(inputs[7]))
+    assert (back.decision, back.kind, back.shape) == (made.decision, "onset", (N_INPUTS, 3, 2, 3))
+    assert back.network.outputs(inputs).sum(axis=1) == pytest.approx(np.ones(50))
+
+
+def test_an_onset_model_of_three_members_stays_below_a_megabyte(tmp_path):
+    save_model(tmp_path / "m.json", onset_model_of(members=3, hidden=(64, 32)))
+
+    assert (tmp_path / "m.json").stat().st_size < 1_000_000
+
+
+@pytest.mark.parametrize(
+    ("keys", "to", "words"),
+    [
+        (["decision"], None, "'decision' is missing"),
+        (["decision", "early"], 1.5, "'early' is 1.5, expected 0 to 1"),
+        (["decision", "last"], 0.97, r"'last' is 0.97, expected 0 to 'early' \(0.96\)"),
+        (["decision", "onset_g"], 0, "'onset_g' is 0.0"),
+        (["decision", "budget_s"], "x", "'budget_s' must be a number"),
+        (["weights", "layers"], [], "'layers' is missing"),
+        (["weights", "layers"], [3], "'layers' must hold objects"),
+        (["weights", "layers", 0, "bias"], [[1.0, 2.0, 3.0]], "do not fit each other"),
+        (["weights", "layers", 1, "weights"], [[[1.0]]], "do not fit each other"),
+        (["weights", "mean"], [[0.0] * N_INPUTS], "'mean' and 'scale' do not fit"),
+        (["weights", "scale"], [[0.0] * N_INPUTS] * 2, "'scale' must be at least"),
+        (["weights", "mean"], [[1e9] * N_INPUTS] * 2, "'mean' hold a number beyond"),
+        (["weights", "temperature"], 0, "'temperature' is 0"),
+        (["labels"], ["X+", "X-", "Y+"], "2 outputs for 3 labels"),
+        (["kind"], "paper", "'hidden' must be numbers"),
+    ],
+)
+def test_damage_of_an_onset_model_is_named_in_one_line(onset_path, keys, to, words):
+    rewrite(onset_path, *keys, to=to)
+
+    with pytest.raises(ModelInvalid, match=words) as caught:
+        load_model(onset_path)
+
+    assert "\n" not in str(caught.value)
 
 
 def test_a_file_without_figures_as_older_versions_wrote_it_is_read(path):
@@ -109,7 +183,8 @@ def test_a_person_can_read_the_file(path):
         (["format"], "other", "is not a model of this application"),
         (["schema"], 2, r"from a newer version \(schema 2"),
         (["schema"], "1", "no usable schema version"),
-        (["kind"], "onset", "unknown kind 'onset'"),
+        (["kind"], "other", "unknown kind 'other'"),
+        (["kind"], "onset", "'layers' is missing"),
         (["labels"], [], "'labels' is missing"),
         (["labels"], ["X+", 3], "'labels' must hold texts"),
         (["labels"], ["X+", "X+"], "names a gesture twice"),
@@ -191,10 +266,10 @@ def test_a_huge_file_is_refused_before_it_is_read(tmp_path):
         load_model(tmp_path / "m.json")
 
 
-@pytest.fixture(scope="module")
-def whole_file(tmp_path_factory):
+@pytest.fixture(scope="module", params=["paper", "onset"])
+def whole_file(request, tmp_path_factory):
     path = tmp_path_factory.mktemp("model") / "whole.json"
-    save_model(path, model_of())
+    save_model(path, model_of() if request.param == "paper" else onset_model_of())
     return path.read_bytes()
 
 
@@ -250,5 +325,5 @@ def read_or_refused_in_one_line(path):
     except ModelInvalid as refused:
         words = str(refused)
     else:
-        assert model.shape[2] == len(model.labels)
+        assert model.shape[-1] == len(model.labels) + (model.kind == "onset")
     assert not words or (str(path) in words and len(words.splitlines()) == 1)
