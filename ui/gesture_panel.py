@@ -4,9 +4,12 @@ from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QFrame, QHBoxLayout, QProgressBar, QVBoxLayout, QWidget
 
 from gestureapp.gestures import gesture
+from gestureapp.guided.controls import GuidedControls
+from gestureapp.guided.values import Heard
 from gestureapp.recognition.values import Recognition
 from gestureapp.robot.values import Direction
 from ui.direction_view import DirectionView
+from ui.keep_heard import KeepHeard
 from ui.labels import BigWord, plain
 from ui.output_bars import OutputBars
 from ui.theme import LARGE_PX, SMALL_PX, TEXT_PX, sized
@@ -19,9 +22,14 @@ UNSURE = "?"
 
 
 class GesturePanel(QFrame):
-    """The last recognition. "Not recognised" is a normal, calm state of it."""
+    """The last recognition. "Not recognised" is a normal, calm state of it.
 
-    def __init__(self, parent: QWidget | None = None) -> None:
+    Args:
+        guided: Keeps what was heard as a take; without it there is no button for that.
+        parent: Qt's.
+    """
+
+    def __init__(self, guided: GuidedControls | None = None, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self.setObjectName("gesturePanel")
         self._shown: tuple[Recognition | None, Direction | None] | None = None
@@ -50,6 +58,10 @@ class GesturePanel(QFrame):
         layout.addWidget(self._certainty)
         layout.addWidget(self._time)
         layout.addWidget(self._bars, 2)
+        self._keep = None
+        if guided is not None:
+            self._keep = KeepHeard("keepOperated", guided, is_tried=False)
+            layout.addWidget(self._keep)
         # Two lines are kept for texts that come and go, so that nothing jumps.
         for text in (self._words, self._time):
             text.setAlignment(Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignTop)
@@ -78,6 +90,11 @@ class GesturePanel(QFrame):
             words = _words_of(recognition.label)
             needed = needed_text(certainty, recognition.thresholds)
             self._show(recognition.label, words, certainty, decision_text(recognition), needed)
+
+    def show_heard(self, heard: Heard) -> None:
+        """Show whether the last gesture can be kept as a take."""
+        if self._keep is not None:
+            self._keep.show_heard(heard)
 
     def _show(
         self, label: str, words: str, certainty: float | None, time: str, needed: str = ""

@@ -65,7 +65,7 @@ class MainWindow(QMainWindow):
         self._strip = StatusStrip()
         self._bars = AlarmBars(clock)
         self._last_time = LastTimeBar()
-        self._operate = OperatePage(cell, clock)
+        self._operate = OperatePage(cell, clock, guided)
         self._train = None
         if guided is not None and trainer is not None:
             self._train = TrainPage(cell, guided, trainer)

@@ -6,6 +6,7 @@ from PySide6.QtWidgets import QFrame, QGridLayout, QHBoxLayout, QVBoxLayout, QWi
 from gestureapp.cell.controls import CellControls
 from gestureapp.cell.snapshot import CellState, Snapshot
 from gestureapp.clock import Clock, monotonic
+from gestureapp.guided.controls import GuidedControls
 from ui.arm_plot import ArmPlot
 from ui.blocker_list import BlockerList
 from ui.event_list import EventList
@@ -19,10 +20,21 @@ _BEFORE_A_MOVE = (CellState.NOT_READY, CellState.READY, CellState.STOPPED)
 
 
 class OperatePage(QWidget):
-    """Shows snapshots of the cell and passes the operator's wishes on. GUI thread only."""
+    """Shows snapshots of the cell and passes the operator's wishes on. GUI thread only.
+
+    Args:
+        cell: Polled and asked.
+        clock: Monotonic seconds.
+        guided: Keeps what was heard as a take; without it there is no button for that.
+        parent: Qt's.
+    """
 
     def __init__(
-        self, cell: CellControls, clock: Clock = monotonic, parent: QWidget | None = None
+        self,
+        cell: CellControls,
+        clock: Clock = monotonic,
+        guided: GuidedControls | None = None,
+        parent: QWidget | None = None,
     ) -> None:
         super().__init__(parent)
         self.setObjectName("operatePage")
@@ -31,7 +43,8 @@ class OperatePage(QWidget):
         self._blockers = BlockerList()
         self._motion = MotionPanel()
         self._events = EventList()
-        self._gesture = GesturePanel()
+        self._guided = guided
+        self._gesture = GesturePanel(guided)
         self._field = FieldView(cell.settings.robot)
         self._left_plot = ArmPlot("leftPlot", "Left arm")
         self._right_plot = ArmPlot("rightPlot", "Right arm")
@@ -57,6 +70,8 @@ class OperatePage(QWidget):
         self._events.show_events(snapshot.events)
         recognition = snapshot.recognition
         self._gesture.show_recognition(recognition, snapshot.direction)
+        if self._guided is not None:
+            self._gesture.show_heard(self._guided.snapshot().heard)
         self._field.show_robot(snapshot.robot)
         used = None
         if recognition is not None:

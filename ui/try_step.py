@@ -9,6 +9,7 @@ from gestureapp.guided.values import GuidedSnapshot, TrainingView, Trying
 from ui.answer_mark import Answer, AnswerMark
 from ui.confusion_matrix import ConfusionMatrix
 from ui.gesture_drawing import GestureDrawing
+from ui.keep_heard import KeepHeard
 from ui.labels import BigWord, plain
 from ui.model_words import gesture_words, live_words, outcome_words
 from ui.theme import LARGE_PX, SMALL_PX, sized
@@ -50,6 +51,7 @@ class TryStep(QWidget):
         self._heard = plain("tryHeard", _ANSWER_PX)
         sized(self._heard, _ANSWER_PX, is_bold=True)
         self._reason = plain("tryReason", LARGE_PX)
+        self._keep = KeepHeard("keepTried", guided, is_tried=True)
         self._figure = plain("tryFigure", _ANSWER_PX)
         sized(self._figure, _ANSWER_PX, is_bold=True)
         self._meaning = plain("tryMeaning", SMALL_PX + 1)
@@ -78,6 +80,7 @@ class TryStep(QWidget):
         self._show_asked(trying.asked if trying.is_on else "")
         self._show_answer(trying)
         self._show_live(trying)
+        self._keep.show_heard(snapshot.heard, trying.was_right)
 
     def _show_asked(self, label: str) -> None:
         if label == self._asked.text() and self._asked.accessibleName():
@@ -135,6 +138,7 @@ class TryStep(QWidget):
         left.addWidget(self._drawing, 5)
         left.addLayout(answer)
         left.addWidget(self._reason)
+        left.addWidget(self._keep)
         # Two lines are kept, so that nothing jumps when an answer comes.
         self._reason.setMinimumHeight(2 * self._reason.fontMetrics().lineSpacing())
         self._reason.setAlignment(Qt.AlignmentFlag.AlignTop)

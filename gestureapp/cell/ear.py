@@ -89,6 +89,7 @@ class Ear:
         self.recognition: Recognition | None = None
         self._record = record
         self._next: ModelInUse | None = None
+        self._activation_s: float | None = None
 
     def choose(self, model: ModelInUse) -> None:
         """Another model, taken when nothing may move."""
@@ -107,6 +108,7 @@ class Ear:
 
     def activate(self, activation_id: int, t_s: float) -> None:
         """The left arm has started."""
+        self._activation_s = t_s
         if self.model.recogniser is not None:
             self.model.recogniser.activate(activation_id, t_s)
 
@@ -130,7 +132,7 @@ class Ear:
     def _decided(self, answer: Recognition | None, now_s: float) -> e.Decided | None:
         if answer is None:
             return None
-        answer = replace(answer, decided_s=now_s)
+        answer = replace(answer, decided_s=now_s, activation_s=self._activation_s)
         self.recognition = answer
         outputs = {c.label: c.confidence for c in answer.outputs}
         fields = {**fields_of(answer), "outputs": outputs}

@@ -23,7 +23,7 @@ class Topic(Enum):
     """state, sentence, activation_id."""
     RECOGNITION = "/recognition"
     """activation_id, label (or null), reason, outputs {label: confidence}, window_start_s,
-    window_end_s, decided_s, onset_s (or null), thresholds."""
+    window_end_s, decided_s, onset_s (or null), thresholds, activation_s."""
     COMMAND = "/robot/command"
     """type and fields of what was asked of, let through or refused by the guardian."""
     ROBOT = "/robot/state"

@@ -11,6 +11,7 @@ import numpy as np
 
 from gestureapp.config import Settings
 from gestureapp.guided.motion import tilt_of
+from gestureapp.recognition.values import Recognition
 from gestureapp.recording.take_values import AFTER_S, BEFORE_S, F64
 from gestureapp.sensing.posture import PostureDetector
 from gestureapp.sensing.store import SampleStore
@@ -39,6 +40,14 @@ class Health(Protocol):
     def right(self) -> StreamHealth:
         """Of the right stream."""
 
+    @property
+    def recognition(self) -> Recognition | None:
+        """What was heard last in operation."""
+
+    @property
+    def person(self) -> str:
+        """Whose arms the model in use is for."""
+
 
 class SensedCell(Protocol):
     """The part of a running cell that guided training reads; it asks nothing of the robot."""
@@ -66,10 +75,14 @@ class News:
     Attributes:
         postures: Changes of the left arm's posture with the receive time of their sample.
         right: New samples of the right arm, oldest first: receive time, then x, y, z in g.
+        recognition: The cell's last one; it is the same until there is another.
+        person: Whose arms the cell's model is for.
     """
 
     postures: tuple[tuple[float, ArmPosture], ...]
     right: tuple[Row, ...]
+    recognition: Recognition | None = None
+    person: str = ""
 
 
 class Arms:
@@ -110,7 +123,8 @@ class Arms:
         if len(new):
             rows = np.concatenate([self._rows, new])
             self._rows = rows[np.searchsorted(rows[:, 0], now_s - KEPT_S) :]
-        return News(tuple(postures), tuple(_row(row) for row in new.tolist()))
+        right = tuple(_row(row) for row in new.tolist())
+        return News(tuple(postures), right, picture.recognition, picture.person)
 
     def cut(self, activation_s: float) -> tuple[F64, F64]:
         """The samples of a take: times from its activation (k,), and (k, 3) in g."""

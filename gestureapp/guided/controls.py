@@ -77,6 +77,13 @@ class GuidedControls(Protocol):
     def stop_trying(self) -> None:
         """End it; what was counted is kept."""
 
+    def keep_heard(self, number: int) -> None:
+        """Keep the last activation as a take of its person; what comes of it is in ``heard``.
+
+        Args:
+            number: ``Heard.number`` of the one that the person saw.
+        """
+
 
 class TrainerControls(Protocol):
     """Training of the chosen person's model in a child process. No call blocks."""

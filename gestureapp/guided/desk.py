@@ -10,14 +10,16 @@ from typing import Final
 
 from gestureapp.clock import Clock
 from gestureapp.config import TrainingSettings
+from gestureapp.errors import RecordingError
 from gestureapp.guided.arms import Arms, SensedCell
+from gestureapp.guided.heard import LastHeard
 from gestureapp.guided.sitting import Plan, Sitting
 from gestureapp.guided.tried_model import TriedModel
 from gestureapp.guided.trying import LiveTest
 from gestureapp.guided.values import GuidedSnapshot, Pace, Phase, Take, Trying
 from gestureapp.guided.verdict import LEVEL_DEG
-from gestureapp.guided.words import CHOOSE_PERSON
-from gestureapp.recording.people import clean_name, model_path, note_last_person
+from gestureapp.guided.words import CHOOSE_PERSON, kept_words, whose_words
+from gestureapp.recording.people import clean_name, list_people, model_path, note_last_person
 
 WANTED_MIN: Final = 5
 WANTED_MAX: Final = 200
@@ -58,6 +60,7 @@ class Desk:
         self._test: LiveTest | None = None
         self._tried = Trying()
         self._model: TriedModel | None = None
+        self._heard = LastHeard()
         self._version_before = 0
         self._version = -1
         self.picture = GuidedSnapshot()
@@ -77,6 +80,8 @@ class Desk:
         if self._test is not None:
             self._test.step(now_s, news, self._arms.lost(with_left=True))
             self._look_at_test(self._test)
+        self._heard.operated(news.recognition, news.person)
+        self._heard.step(now_s, self._arms)
         self._draw(now_s)
 
     def open(self, person: str) -> None:
@@ -145,8 +150,41 @@ class Desk:
             self._tried = self._test.view
         self._test = None
 
+    def keep_heard(self, number: int) -> None:
+        """Make the last activation a take of whoever did it; what comes of it is in the picture.
+
+        Args:
+            number: Of the activation that the person has seen.
+        """
+        samples = self._heard.samples(number)
+        if samples is None:
+            return
+        heard, person = self._heard, self._heard.person
+        try:
+            self._open_for(person)
+        except RecordingError as error:
+            heard.refused(str(error))
+            return
+        sitting = self.sitting
+        if sitting is None or not person or sitting.person != clean_name(person):
+            heard.refused(whose_words(person, sitting.person if sitting else ""))
+            return
+        wall_s = self._wall_clock() - (self._clock() - heard.activation_s)
+        take = sitting.keep(heard.view.label, samples, wall_s)
+        if take is None:
+            heard.refused(sitting.trouble)
+        else:
+            heard.kept(kept_words(take))
+
+    def _open_for(self, person: str) -> None:
+        """In operation nobody's takes need be open: those of the model's person, if there are."""
+        if self.sitting is None and person and person in list_people(self._data):
+            self.open(person)
+
     def _look_at_test(self, test: LiveTest) -> None:
         """Show where the live test stands; one that is over is kept with the model."""
+        if test.view.n_done > self._tried.n_done and self.sitting is not None:
+            self._heard.tried(test.view.answered, test.activation_s, self.sitting.person)
         self._tried = test.view
         if not test.is_over:
             return
@@ -173,6 +211,7 @@ class Desk:
             version=self._version_before,
             sentence=CHOOSE_PERSON,
             trying=self._tried,
+            heard=self._heard.view,
         )
         self.picture = common if self.sitting is None else self._with_sitting(common, self.sitting)
 

@@ -157,6 +157,10 @@ class Guided:
         """End it; what was counted is kept."""
         self._wishes.put(Desk.stop_trying)
 
+    def keep_heard(self, number: int) -> None:
+        """Keep the last activation as a take of its person; what comes of it is in ``heard``."""
+        self._wishes.put(lambda desk: desk.keep_heard(number))
+
     # The thread.
 
     def _ask(self, act: Callable[[Sitting], None]) -> None:

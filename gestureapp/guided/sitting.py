@@ -19,7 +19,7 @@ from gestureapp.guided.values import GestureProgress, Pace, Phase
 from gestureapp.guided.verdict import judge
 from gestureapp.guided.words import batch_sentence, idle_sentence
 from gestureapp.recording.take_store import NewTake, TakeStore
-from gestureapp.recording.take_values import Take
+from gestureapp.recording.take_values import F64, Take, confirmed, sitting_of
 from gestureapp.sensing.values import ArmPosture
 
 SAME_SITTING_S: Final = 1800.0
@@ -187,6 +187,19 @@ class Sitting:
         """Put a take into the bin."""
         self._change(lambda store: store.delete(take_id))
 
+    def keep(self, label: str, samples: tuple[F64, F64], wall_s: float) -> Take | None:
+        """Keep what was done outside a batch, judged like every take; None when the disk refuses.
+
+        Args:
+            label: What was done.
+            samples: Times from the activation (k,), and (k, 3) in g.
+            wall_s: When it was activated, seconds since the epoch.
+        """
+        take = self._add(label, confirmed(self._session), wall_s, samples)
+        if take is not None:
+            self._changed()
+        return take
+
     # Time.
 
     def step(
@@ -210,16 +223,20 @@ class Sitting:
             self.label = self.suggested
 
     def _keep(self, activation_s: float, wall_s: float) -> None:
-        times_s, accel_g = self._arms.cut(activation_s)
-        judgement = judge(self.label, times_s, accel_g, self.takes, self._likeness)
-        new = NewTake(self.label, self._session, wall_s, judgement, times_s, accel_g)
+        take = self._add(self.label, self._session, wall_s, self._arms.cut(activation_s))
+        if take is not None:
+            self._batch_ids.add(take.id)
+            self._changed()
+
+    def _add(
+        self, label: str, session: str, wall_s: float, samples: tuple[F64, F64]
+    ) -> Take | None:
+        judgement = judge(label, *samples, self.takes, self._likeness)
         try:
-            take = self._store.add(new)
+            return self._store.add(NewTake(label, session, wall_s, judgement, *samples))
         except RecordingError as error:
             self._fail(error)
-            return
-        self._batch_ids.add(take.id)
-        self._changed()
+            return None
 
     def _change(self, act: Callable[[TakeStore], object]) -> None:
         try:
@@ -253,5 +270,5 @@ class Sitting:
 def _session_of(takes: tuple[Take, ...], wall_s: float) -> str:
     """The sitting that goes on, or a new one."""
     if takes and 0.0 <= wall_s - takes[-1].wall_s < SAME_SITTING_S:
-        return takes[-1].session
+        return sitting_of(takes[-1].session)
     return datetime.fromtimestamp(wall_s, UTC).isoformat(timespec="seconds")

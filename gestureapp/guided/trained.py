@@ -1,6 +1,7 @@
 """A person's model beside the takes that count now: what it came to, and whether it still fits."""
 
 from collections.abc import Callable, Sequence
+from datetime import datetime
 from pathlib import Path
 from typing import Final
 
@@ -29,11 +30,19 @@ def set_of(takes: Sequence[Take], person: str) -> TakeSet:
     return to_take_set(counting, person, _rate_hz(counting))
 
 
-def find_out_of_date(model: Model, takes: TakeSet) -> str:
-    """Why a model does not fit the takes any more; empty when it does."""
-    if set(takes.labels) != set(model.labels):
-        return GESTURES_CHANGED
-    return "" if takes.fingerprint() == model.takes_fingerprint else TAKES_CHANGED
+def find_out_of_date(model: Model, takes: Sequence[Take], person: str) -> str:
+    """Why a model does not fit the takes any more; empty when it does.
+
+    Takes that were confirmed since are no reason: the model was right about them, or nearly so,
+    and is as good as before. The next training learns from them.
+    """
+    counting = set_of(takes, person)
+    if counting.fingerprint() == model.takes_fingerprint:
+        return ""
+    older = set_of([take for take in takes if not _is_confirmed_since(take, model)], person)
+    if older.fingerprint() == model.takes_fingerprint:
+        return ""
+    return GESTURES_CHANGED if set(counting.labels) != set(model.labels) else TAKES_CHANGED
 
 
 def result_of(model: Model) -> TrainingResult:
@@ -67,7 +76,7 @@ def find_own_model(data: Path, person: str) -> tuple[Path, str] | None:
     except RecordingError as error:
         return path, f"the takes of the model cannot be read: {error}"
     try:
-        return path, find_out_of_date(load_model(path), set_of(store.takes(), store.person))
+        return path, find_out_of_date(load_model(path), store.takes(), store.person)
     except ModelError:
         return path, ""  # who opens it will say what is wrong with it
     finally:
@@ -114,7 +123,7 @@ class KnownModel:
             self._read()
         self.out_of_date = ""
         if self._model is not None:
-            self.out_of_date = find_out_of_date(self._model, set_of(takes(), picture.person))
+            self.out_of_date = find_out_of_date(self._model, takes(), picture.person)
         return not is_same_file or before != (self.out_of_date, self.trouble)
 
     def _read(self) -> None:
@@ -127,6 +136,14 @@ class KnownModel:
             self.trouble = str(error)
         else:
             self.result = result_of(self._model)
+
+
+def _is_confirmed_since(take: Take, model: Model) -> bool:
+    try:
+        made_s = datetime.fromisoformat(model.created).timestamp()
+    except ValueError:
+        return False
+    return take.is_confirmed and take.wall_s >= made_s
 
 
 def _rate_hz(takes: Sequence[Take]) -> float:

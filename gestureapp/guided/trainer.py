@@ -26,6 +26,7 @@ from gestureapp.recognition.presets import Preset
 from gestureapp.recognition.takes import TakeSet, save_takes
 from gestureapp.recognition.training_job import Failed, Finished, Job, Progress, parse_answer
 from gestureapp.recording.people import model_path
+from gestureapp.recording.take_values import sitting_of
 from gestureapp.worker import Worker
 
 LOOK_S: Final = 0.25
@@ -170,7 +171,7 @@ class Trainer:
     def _train_in(
         self, folder: Path, person: str, takes: TakeSet, preset: Preset, seed: int, begun_s: float
     ) -> None:
-        n_sessions = len(set(takes.session))
+        n_sessions = len(set(map(sitting_of, takes.session)))
         sittings = "1 sitting" if n_sessions == 1 else f"{n_sessions} sittings"
         came_from = f"{len(takes)} takes of {person} in {sittings}"
         job = Job(folder / "takes.npz", folder / "model.json", preset, seed, came_from)

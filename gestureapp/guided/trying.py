@@ -35,6 +35,7 @@ class LiveTest:
 
     Attributes:
         view: What there is to show.
+        activation_s: Of the last gesture that was answered, monotonic clock.
     """
 
     def __init__(
@@ -63,6 +64,7 @@ class LiveTest:
         self._is_on = True
         self._live: Live | None = None
         self.view = Trying()
+        self.activation_s = now_s
         self._draw()
 
     @property
@@ -111,7 +113,7 @@ class LiveTest:
             return
         self._answers.append((self._asked, answer.label))
         self._took_ms.append(1000.0 * (answer.decided_s - self._activation_s))
-        self._last = answer
+        self._last, self.activation_s = answer, self._activation_s
         self._open.pop(0)
         self._asked, self._activation_s, self._is_again = "", None, False
         self._ask_s = answer.decided_s + SHOWN_S

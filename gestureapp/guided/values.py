@@ -98,6 +98,25 @@ class Trying:
 
 
 @dataclass(frozen=True, slots=True)
+class Heard:
+    """The last activation that could become a take, at one moment.
+
+    Attributes:
+        number: Grows with every activation; 0 before the first.
+        is_tried: It came while a model was tried; else in operation.
+        label: The gesture it would be a take of; empty when it can be none.
+        can_keep: Its samples are there, and it has not been kept yet.
+        text: What came of the wish to keep it, or why it cannot be kept; one line.
+    """
+
+    number: int = 0
+    is_tried: bool = False
+    label: str = ""
+    can_keep: bool = False
+    text: str = ""
+
+
+@dataclass(frozen=True, slots=True)
 class GuidedSnapshot:
     """Guided training at one moment.
 
@@ -125,6 +144,7 @@ class GuidedSnapshot:
         posture: What the left arm says.
         version: Grows with every change of the takes: ask for them again.
         trying: The live test.
+        heard: The last activation, which ``keep_heard`` makes a take of.
     """
 
     t_s: float = 0.0
@@ -150,6 +170,7 @@ class GuidedSnapshot:
     posture: ArmPosture = ArmPosture.NEITHER
     version: int = 0
     trying: Trying = field(default_factory=Trying)
+    heard: Heard = field(default_factory=Heard)
 
 
 class TrainingPhase(Enum):

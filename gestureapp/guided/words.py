@@ -2,7 +2,7 @@
 
 from gestureapp.gestures import gesture, is_held
 from gestureapp.guided.batch import Batch
-from gestureapp.guided.values import Pace, Phase
+from gestureapp.guided.values import Pace, Phase, Take
 
 CHOOSE_PERSON = "Choose whose takes these are."
 ALL_DONE = "All takes are there: look at them, then train."
@@ -52,3 +52,19 @@ def _hands_free(label: str) -> str:
 
 def _kept(n_good: int) -> str:
     return "1 good take is kept" if n_good == 1 else f"{n_good} good takes are kept"
+
+
+def kept_words(take: Take) -> str:
+    """What became of a gesture that was kept as a take."""
+    if take.judgement.is_good:
+        return f"Kept as a take of {take.label}: the next training learns from it."
+    return f"Kept as a take of {take.label}, but it does not count: {take.judgement.words}."
+
+
+def whose_words(person: str, open_person: str) -> str:
+    """Why a gesture cannot be kept as a take of its person."""
+    if not person:
+        return "The model in use is nobody's: train one on the page Train to keep takes."
+    if not open_person:
+        return f"{person} has no takes here: record some on the page Train first."
+    return f"The takes of {open_person} are open: choose {person} on the page Train first."

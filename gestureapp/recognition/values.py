@@ -32,6 +32,7 @@ class Recognition:
             recogniser does not look for it.
         thresholds: The confidence that an answer needed, 0 to 1: one, or that for an answer at
             once and then that at the end of the time; empty when unknown.
+        activation_s: When the left arm started; None when whoever asked has not said it.
     """
 
     activation_id: int
@@ -43,6 +44,7 @@ class Recognition:
     decided_s: float
     onset_s: float | None = None
     thresholds: tuple[float, ...] = ()
+    activation_s: float | None = None
 
     @property
     def best(self) -> tuple[Candidate, ...]:

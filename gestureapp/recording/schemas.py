@@ -104,12 +104,13 @@ SCHEMAS: Final[Mapping[Topic, Schema]] = {
             "window_end_s": _number("receive time of the last sample used, s"),
             "decided_s": _number("when the answer was there, s"),
             "onset_s": _number("when the right arm's movement began, s; null when not looked for"),
+            "activation_s": _number("when the left arm started, s"),
             "thresholds": {
                 **_field("array", "confidence an answer needed: at once, then in the end"),
                 "items": _field("number", "0 to 1"),
             },
         },
-        optional=("onset_s", "thresholds"),
+        optional=("onset_s", "thresholds", "activation_s"),
     ),
     Topic.COMMAND: _schema("Asked of, let through or refused by the guardian", _WORDS_AND_FIELDS),
     Topic.ROBOT: _schema(

@@ -15,6 +15,9 @@ AFTER_S: Final = 1.0
 """… and ends this long after it: 1.5 s, the paper's nine minutes for 12 x 30 takes."""
 
 
+_CONFIRMED: Final = " confirmed"
+
+
 class Verdict(Enum):
     """What a take is worth; the value is the word on the screen."""
 
@@ -48,7 +51,7 @@ class Take:
     Attributes:
         id: Number in the person's database.
         label: The gesture that was asked for, or that it was moved to.
-        session: The sitting it is from: its begin, ISO 8601.
+        session: The sitting it is from: its begin, ISO 8601; see ``confirmed``.
         wall_s: When it was activated, seconds since the epoch.
         judgement: The verdict it got at once.
         is_excluded: A person has taken it out; it can be taken back.
@@ -71,3 +74,21 @@ class Take:
     def counts(self) -> bool:
         """It is trained from."""
         return self.judgement.is_good and not self.is_excluded and not self.is_deleted
+
+    @property
+    def is_confirmed(self) -> bool:
+        """It was not recorded: somebody said of what was heard that it was right."""
+        return self.session.endswith(_CONFIRMED)
+
+
+def confirmed(session: str) -> str:
+    """What stands as the session of takes that were confirmed in this sitting.
+
+    They are told from recorded ones, so that a model does not count as out of date because of them.
+    """
+    return f"{sitting_of(session)}{_CONFIRMED}"
+
+
+def sitting_of(session: str) -> str:
+    """The sitting of a take's session, whether the take was recorded or confirmed."""
+    return session.removesuffix(_CONFIRMED)

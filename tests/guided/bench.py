@@ -9,6 +9,7 @@ import numpy as np
 from gestureapp.config import Settings
 from gestureapp.guided.desk import Desk
 from gestureapp.guided.values import GuidedSnapshot, Phase
+from gestureapp.recognition.values import Recognition
 from gestureapp.sensing.store import SampleStore
 from gestureapp.sensing.stream import StreamTracker
 from gestureapp.sensing.values import (
@@ -31,6 +32,8 @@ WALL_S = 1_800_000_000.0
 class Picture:
     left: StreamHealth
     right: StreamHealth
+    recognition: Recognition | None = None
+    person: str = ""
 
 
 class SensedArms:
@@ -45,10 +48,12 @@ class SensedArms:
             for side in Side
         }
         self.now_s = 0.0
+        self.recognition: Recognition | None = None
+        self.person = ""
 
     def snapshot(self) -> Picture:
         left, right = (self.trackers[side].health(self.now_s) for side in (Side.LEFT, Side.RIGHT))
-        return Picture(left, right)
+        return Picture(left, right, self.recognition, self.person)
 
 
 class Bench:

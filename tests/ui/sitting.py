@@ -87,6 +87,9 @@ class DeskControls:
     def stop_trying(self) -> None:
         raise NotImplementedError
 
+    def keep_heard(self, number: int) -> None:
+        self.bench.desk.keep_heard(number)
+
     @property
     def _sitting(self) -> Sitting:
         sitting = self.bench.desk.sitting

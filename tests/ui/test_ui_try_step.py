@@ -34,6 +34,9 @@ class BenchControls:
     def stop_trying(self) -> None:
         self._desk.stop_trying()
 
+    def keep_heard(self, number: int) -> None:
+        self._desk.keep_heard(number)
+
 
 class Trained:
     """A trainer with a model, or without."""
@@ -177,3 +180,20 @@ def test_without_a_model_or_a_person_it_cannot_begin_and_says_why(desk):
     desk.bench.run(0.05)
     desk.see()
     assert desk.text("tryText") == "Choose a person first."
+
+
+def test_what_was_done_as_asked_becomes_a_take_with_a_click(desk):
+    desk.press()
+    desk.run_until(lambda picture: picture.heard.can_keep)
+    label = desk.bench.picture.heard.label
+    button = desk.step.findChild(QPushButton, "keepTried")
+    assert button.isVisible()
+    assert button.accessibleName().endswith(f"keep it as a take of {label}")
+
+    desk.qtbot.mouseClick(button, Qt.MouseButton.LeftButton)
+    desk.bench.tick()
+    desk.see()
+
+    assert [take.label for take in desk.bench.desk.takes] == [label]
+    assert not button.isVisible()
+    assert desk.text("keepTriedWords").startswith(f"Kept as a take of {label}")
