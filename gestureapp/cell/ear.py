@@ -7,8 +7,8 @@ from gestureapp.cell import events as e
 from gestureapp.cell.records import Record, Recorder, Topic, fields_of
 from gestureapp.errors import ModelError
 from gestureapp.gestures import LABELS
+from gestureapp.recognition.kinds import recogniser_for
 from gestureapp.recognition.model_file import Model, load_model
-from gestureapp.recognition.paper import PaperRecogniser
 from gestureapp.recognition.values import Recogniser, Recognition
 from gestureapp.sensing.values import Sample
 
@@ -51,7 +51,7 @@ def open_model(path: Path | None, problem: str = "", person: str = "") -> ModelI
         if unknown:
             unfit = f"{path.name} knows gestures the robot does not: {unknown}"
             return ModelInUse(None, path.name, unfit)
-        recogniser = PaperRecogniser(model)
+        recogniser = recogniser_for(model)
     except (ModelError, ValueError) as error:
         return ModelInUse(None, problem=str(error))
     words = describe_model(model, path.stem)

@@ -1,10 +1,9 @@
 """When the probabilities of a moment are an answer: early, at the budget's end, or not. Pure."""
 
-import math
 from dataclasses import dataclass
 
 from gestureapp.recognition.movement import ONSET_G
-from gestureapp.recognition.values import Candidate
+from gestureapp.recognition.values import NO_GESTURE, Candidate
 
 EARLY, LAST = 0.95, 0.60
 """For a model of the person's own takes; simulated people: 99.4 % recognised, 0.06 % wrong."""
@@ -45,35 +44,27 @@ class Decision:
             raise ValueError(f"'last' is {self.last}, expected 0 to 'early' ({self.early})")
 
 
-def judge_early(outputs: tuple[Candidate, ...], nothing: float, decision: Decision) -> str | None:
+def judge_early(outputs: tuple[Candidate, ...], decision: Decision) -> str | None:
     """The gesture that is sure already, or None.
 
     Args:
-        outputs: The gestures.
-        nothing: How likely it is none of them, 0 to 1.
+        outputs: The gestures, then ``NO_GESTURE``.
         decision: The thresholds.
     """
     best = max(outputs, key=lambda c: c.confidence)
-    return best.label if best.confidence >= max(decision.early, nothing) else None
+    is_sure = best.confidence >= decision.early and best.label != NO_GESTURE
+    return best.label if is_sure else None
 
 
-def judge_last(
-    outputs: tuple[Candidate, ...], nothing: float, decision: Decision
-) -> tuple[str | None, str]:
+def judge_last(outputs: tuple[Candidate, ...], decision: Decision) -> tuple[str | None, str]:
     """Label and reason when the budget is over; arguments as for ``judge_early``."""
-    first, *others = sorted(outputs, key=lambda c: c.confidence, reverse=True)[:2]
-    if nothing > first.confidence:
-        return None, f"nothing I know ({_percent(nothing)} sure)"
-    if first.confidence >= decision.last:
-        return first.label, ""
-    if others and others[0].confidence >= CANDIDATE:
-        return None, f"two candidates ({_named(first)}, {_named(others[0])})"
-    return None, f"not sure ({', '.join(map(_named, (first, *others)))})"
-
-
-def _named(candidate: Candidate) -> str:
-    return f"{candidate.label} {_percent(candidate.confidence)}"
-
-
-def _percent(share: float) -> str:
-    return f"{math.floor(100.0 * share)} %"
+    ordered = sorted(outputs, key=lambda c: c.confidence, reverse=True)
+    if ordered[0].label == NO_GESTURE:
+        return None, f"nothing I know ({ordered[0].words})"
+    if ordered[0].confidence >= decision.last:
+        return ordered[0].label, ""
+    best = [c for c in ordered if c.label != NO_GESTURE][:2]
+    named = ", ".join(c.words for c in best)
+    if len(best) == 2 and best[1].confidence >= CANDIDATE:
+        return None, f"two candidates ({named})"
+    return None, f"not sure ({named})"

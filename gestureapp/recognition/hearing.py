@@ -5,13 +5,15 @@ from numpy.typing import NDArray
 
 from gestureapp.errors import ModelMismatch
 from gestureapp.recognition.evaluation import Evaluation, tally
+from gestureapp.recognition.kinds import recogniser_for
 from gestureapp.recognition.model_file import Model
-from gestureapp.recognition.paper import SILENT_AFTER_S, PaperRecogniser
 from gestureapp.recognition.takes import TakeSet
-from gestureapp.recognition.values import Recogniser, Recognition
+from gestureapp.recognition.values import SILENT_AFTER_S, Recogniser, Recognition
 
 RATE_UNKNOWN_HZ = 100.0
 """Taken for takes of unknown rate: the paper's."""
+TICK_S = 0.01
+"""After the end of a take the recogniser is let know so often that time goes on."""
 
 
 def evaluate(model: Model, takes: TakeSet) -> Evaluation:
@@ -36,7 +38,7 @@ def hear(model: Model, takes: TakeSet, index: int) -> Recognition:
     """What a fresh recogniser with this model makes of one take."""
     rate_hz = takes.rate_hz or RATE_UNKNOWN_HZ
     activation = int(takes.activation[index])
-    return follow(PaperRecogniser(model), takes.accel_g(index), activation, rate_hz, index)
+    return follow(recogniser_for(model), takes.accel_g(index), activation, rate_hz, index)
 
 
 def count_answers(
@@ -72,9 +74,10 @@ def follow(
         answer = recogniser.feed(index / rate_hz, (x, y, z))
         if answer is not None:
             return answer
-    end_s = max(len(accel_g) / rate_hz, activation / rate_hz + 2.0 * SILENT_AFTER_S)
-    answer = recogniser.check(end_s)
-    if answer is not None:
-        return answer
     now_s = activation / rate_hz
+    end_s = max((len(accel_g) - 1) / rate_hz, now_s)
+    for tick in range(1, round(2.0 * SILENT_AFTER_S / TICK_S) + 1):
+        answer = recogniser.check(end_s + tick * TICK_S)
+        if answer is not None:
+            return answer
     return Recognition(activation_id, None, "the take ended", (), now_s, now_s, end_s)

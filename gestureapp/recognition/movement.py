@@ -55,6 +55,7 @@ class Follower:
         onset_g: Deviation from the baseline that is a movement, in g.
 
     Attributes:
+        newest_s: Time of the newest sample, or minus infinity before the first.
         is_moving: A movement has begun, and the arm was not still since.
         is_still: The arm is still.
         onset_s: When the movement began, or NaN before the first one.
@@ -71,6 +72,7 @@ class Follower:
 
     def _forget(self) -> None:
         self._begin = self._end = 0
+        self.newest_s = -math.inf
         self.is_moving = self.is_still = False
         self.onset_s = math.nan
         self.baseline_g: F64 = LEVEL
@@ -93,6 +95,7 @@ class Follower:
         is_first = self._end == 0
         times, accel = self._keep(max(t_s, float(last_s)), accel_g)
         t_s, reading = float(times[-1]), accel[-1]
+        self.newest_s = t_s
         far_g = _length(reading - LEVEL)
         self._least_far_g = min(self._least_far_g, far_g)
         if is_first:

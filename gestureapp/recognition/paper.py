@@ -8,12 +8,17 @@ from numpy.typing import NDArray
 
 from gestureapp.recognition.model_file import Model
 from gestureapp.recognition.model_weights import KIND_PAPER, WINDOW_SAMPLES
-from gestureapp.recognition.values import Candidate, Recognition
+from gestureapp.recognition.values import (
+    NO_MOVEMENT,
+    NOT_A_NUMBER,
+    SILENT,
+    SILENT_AFTER_S,
+    Candidate,
+    Recognition,
+)
 
 THRESHOLD = 0.5
 """An output at or above this has detected its gesture. Source: paper, IV.C."""
-SILENT_AFTER_S = 0.25
-"""The three samples must be there by then after the activation; at 100 Hz they take 30 ms."""
 REST_G = 0.15
 """All three samples nearer than this to (0, 0, 1) g: a resting hand, not a gesture.
 
@@ -33,10 +38,6 @@ heard at rest 47.6 % without the guard, 8.5 % at 0.06, 0.3 % at 0.08 and none fr
 """
 HISTORY = 64
 """Samples kept, so that those received after the activation's time but before its call count."""
-
-SILENT = "right arm silent"
-NO_MOVEMENT = "no movement of the right arm"
-NOT_A_NUMBER = "a reading of the right arm is not a number"
 
 Accel = tuple[float, float, float]
 
@@ -129,7 +130,7 @@ def judge(outputs: tuple[Candidate, ...]) -> tuple[str | None, str]:
     if len(detected) == 1:
         return detected[0].label, ""
     best = sorted(outputs, key=lambda c: c.confidence, reverse=True)[:2]
-    named = ", ".join(f"{c.label} {math.floor(c.confidence * 100) / 100:.2f}" for c in best)
+    named = ", ".join(c.words for c in best)
     if detected:
         return None, f"two candidates ({named})"
     return None, f"no clear gesture ({named})"

@@ -1,10 +1,16 @@
 """What a recogniser takes and gives."""
 
+import math
 from dataclasses import dataclass
 from typing import Final, Protocol
 
 NO_GESTURE: Final = "none"
 """The candidate that stands for "nothing I know"; where there is one, it is the last output."""
+SILENT_AFTER_S: Final = 0.25
+"""Without the right arm's samples for so long after the activation it is silent."""
+SILENT: Final = "right arm silent"
+NO_MOVEMENT: Final = "no movement of the right arm"
+NOT_A_NUMBER: Final = "a reading of the right arm is not a number"
 
 
 @dataclass(frozen=True, slots=True)
@@ -13,6 +19,11 @@ class Candidate:
 
     label: str
     confidence: float
+
+    @property
+    def words(self) -> str:
+        """``X+ 0.49``: rounded down, so that what is under a threshold does not read as at it."""
+        return f"{self.label} {math.floor(self.confidence * 100) / 100:.2f}"
 
 
 @dataclass(frozen=True, slots=True)
