@@ -166,7 +166,7 @@ def _add_benchmark(commands: "argparse._SubParsersAction[argparse.ArgumentParser
     benchmark.add_argument(
         "--fault", action="append", metavar="NAME", help="this one only; may be repeated"
     )
-    benchmark.add_argument("--people", type=_count, default=20, help="for recognition: simulated")
+    benchmark.add_argument("--people", type=_count, default=40, help="for recognition: simulated")
     benchmark.add_argument(
         "--takes", type=Path, metavar="TAKES.npz", help="for recognition: takes from a file instead"
     )

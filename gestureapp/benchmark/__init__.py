@@ -14,8 +14,8 @@ from gestureapp.errors import ConfigError
 from gestureapp.window_port import OpenWindow
 
 if TYPE_CHECKING:
+    from gestureapp.benchmark.contest import ContestReport
     from gestureapp.benchmark.faults.table import FaultReport
-    from gestureapp.benchmark.recognition import RecognitionReport
 
 
 def measure(what: str, seconds: float, open_window: OpenWindow | None) -> Report:
@@ -75,8 +75,8 @@ def measure_faults(
 
 def measure_recognition(
     n_people: int, takes: Path | None, gestures: Sequence[str]
-) -> "RecognitionReport":
-    """What both presets recognise of takes they have not seen.
+) -> "ContestReport":
+    """What the recognisers, ours, the paper's and outside peers, make of unseen takes.
 
     Args:
         n_people: Simulated ones, when there is no file.
@@ -86,6 +86,6 @@ def measure_recognition(
     Raises:
         GestureAppError: the file cannot be used.
     """
-    from gestureapp.benchmark.recognition import measure_people, measure_takes
+    from gestureapp.benchmark.contest import measure_file, measure_simulated
 
-    return measure_people(n_people) if takes is None else measure_takes(takes, gestures)
+    return measure_simulated(n_people) if takes is None else measure_file(takes, gestures)

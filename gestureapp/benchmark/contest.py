@@ -1,0 +1,289 @@
+"""Recognisers side by side on the same unseen takes: the paper's, outside peers, and ours.
+
+Ours and the paper's are the product's own, trained by the product and fed sample by sample.
+"""
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+import numpy as np
+
+from gestureapp.benchmark import peers
+from gestureapp.benchmark.report import machine
+from gestureapp.errors import ModelError, NotEnoughTakes
+from gestureapp.recognition.evaluation import Evaluation, tally
+from gestureapp.recognition.folds import FoldBy, divide
+from gestureapp.recognition.hearing import RATE_UNKNOWN_HZ, hear
+from gestureapp.recognition.model_file import Model
+from gestureapp.recognition.presets import Preset
+from gestureapp.recognition.takes import TakeSet, load_takes
+from gestureapp.recognition.training import train
+from gestureapp.simulation.takes import make_takes
+
+SEED = 8123
+TRAINED_ON, TESTED_ON = 30, 10
+"""Takes of each gesture: on the first day, and on each of the later ones."""
+LATER_DAYS = (2, 3, 4)
+PEERS_PEOPLE = 5
+"""The paper's 100,000 cycles take their time: so many people are enough to see it."""
+ADAPTED_TO = (1, 3, 5, 10, 30)
+SETTINGS = ((0.9, 0.4), (0.95, 0.5), (0.95, 0.6), (0.97, 0.7), (0.98, 0.8), (0.99, 0.9))
+OURS = "ours"
+
+Answer = tuple[str | None, float]
+"""What was heard, and when, from the take's begin, in s."""
+Hear = Callable[[TakeSet], list[Answer]]
+Learn = Callable[[TakeSet], Hear]
+Part = tuple[TakeSet, TakeSet]
+"""What is learned from, and what is heard."""
+
+
+@dataclass(frozen=True, slots=True)
+class Contest:
+    """One table: recognisers on the same takes.
+
+    Attributes:
+        title: Whose takes, and how they were divided.
+        columns: Each recogniser's name with what it made of the takes. ``decision_ms`` is from the
+            onset of the movement (of a posture: from the activation), of answers with a gesture.
+    """
+
+    title: str
+    columns: Sequence[tuple[str, Evaluation]]
+
+    def as_json(self) -> dict[str, object]:
+        """Plain values."""
+        columns = {name: evaluation.as_json() for name, evaluation in self.columns}
+        return {"title": self.title, "columns": columns}
+
+    def as_table(self) -> str:
+        """Markdown; shares in per cent, of a gesture recognised and (wrong)."""
+        found = [evaluation for _, evaluation in self.columns]
+        head = ["", *(f"{name} (n = {e.n})" for name, e in self.columns)]
+        rows = [head, ["---"] * len(head)]
+        for name in ("recognised", "wrong", "rejected"):
+            rows.append([f"{name}, %", *(f"{100 * getattr(e, name):.2f}" for e in found)])
+        for k, name in enumerate(("median", "95th percentile")):
+            rows.append([f"decided after, {name}, ms", *(f"{e.decision_ms[k]:.0f}" for e in found)])
+        shares = [evaluation.per_gesture() for evaluation in found]
+        for label in dict.fromkeys(label for share in shares for label in share):
+            rows.append([label, *(_cell(share.get(label)) for share in shares)])
+        lines = [f"| {' | '.join(row)} |" for row in rows]
+        return "\n".join([f"### {self.title}", "", *lines])
+
+
+@dataclass(frozen=True, slots=True)
+class ContestReport:
+    """All tables, and what has to be known about them."""
+
+    contests: Sequence[Contest]
+    notes: Sequence[str]
+
+    def as_json(self) -> dict[str, object]:
+        """Plain values, with the machine."""
+        contests = [contest.as_json() for contest in self.contests]
+        return {"machine": machine(), "contests": contests, "notes": list(self.notes)}
+
+    def as_table(self) -> str:
+        """Markdown, one table after the other."""
+        tables = [contest.as_table() for contest in self.contests]
+        return "\n\n".join([machine(), *tables, *self.notes])
+
+
+def measure_simulated(n_people: int, seed: int = SEED) -> ContestReport:
+    """Have everybody hear simulated people, who trained on one day, on three later ones.
+
+    Args:
+        n_people: How many; each trains alone. The peers hear the first ``PEERS_PEOPLE``.
+        seed: Who they are.
+    """
+    first = make_takes(n_people, TRAINED_ON, seed, session=1)
+    later = [make_takes(n_people, TESTED_ON, seed, session=day) for day in LATER_DAYS]
+    names = list(dict.fromkeys(first.user))
+    own = {name: _of(first, name) for name in names}
+    parts = [(own[name], _of(day, name)) for name in names for day in later]
+    few = parts[: PEERS_PEOPLE * len(later)]
+    ours = [(OURS, _score(parts, learn_ours))]
+    columns = [(name, _score(few, learn)) for name, learn in _peers()]
+    days = f"{TRAINED_ON} takes of each gesture to train, {len(later)} later days"
+    people = f"{n_people} simulated people"
+    return ContestReport(
+        [
+            Contest(f"{people}, {days}", [*columns, *ours]),
+            Contest(f"{OURS}, by takes of each gesture to train", list(_adapted(few))),
+            Contest(f"{OURS}, by certainty needed at once / in the end", list(_by_setting(few))),
+        ],
+        _notes(),
+    )
+
+
+def measure_file(path: Path, gestures: Sequence[str] = ()) -> ContestReport:
+    """Have everybody hear takes from a file: of the same person by repetition, and of others.
+
+    Args:
+        path: An NPZ file of takes; ``user`` and ``repetition`` decide which splits there are.
+        gestures: Only these; all when empty.
+
+    Raises:
+        RecordingInvalid: the file cannot be read.
+        NotEnoughTakes: too few are left of a gesture.
+        ModelError: the takes name neither repetition nor person.
+    """
+    takes = load_takes(path)
+    if gestures:
+        takes = takes.select([i for i, label in enumerate(takes.labels) if label in gestures])
+    contests = []
+    for words, parts in _splits(takes):
+        columns = [(name, _score(parts, learn)) for name, learn in (*_peers(), (OURS, learn_ours))]
+        contests.append(Contest(f"{path.name}, {words}", columns))
+    if not contests:
+        raise ModelError(
+            path, "the takes name neither 'repetition' nor 'user': nothing to split by"
+        )
+    return ContestReport(contests, [*takes.remarks, *_notes()])
+
+
+def learn_ours(takes: TakeSet) -> Hear:
+    """The product's default."""
+    return _hearer(train(takes, seed=SEED, is_validated=False))
+
+
+def learn_paper(takes: TakeSet) -> Hear:
+    """The paper's network, three samples from the activation."""
+    return _hearer(train(takes, Preset.PAPER, SEED, is_validated=False))
+
+
+def learn_paper_at_onset(takes: TakeSet) -> Hear:
+    """The paper's network, three samples from the onset of the right arm's movement."""
+    listen = learn_paper(at_onset(takes))
+    return lambda others: listen(at_onset(others))
+
+
+def at_onset(takes: TakeSet) -> TakeSet:
+    """The same takes with the activation moved to where the right arm begins to move."""
+    rate_hz = takes.rate_hz or RATE_UNKNOWN_HZ
+    index = np.ceil(peers.onsets_s(takes) * rate_hz - 1e-6).astype(np.int64)
+    return replace(takes, activation=np.maximum(index, 0))
+
+
+def _peers() -> Iterator[tuple[str, Learn]]:
+    yield "paper, from activation", learn_paper
+    yield "paper, from onset", learn_paper_at_onset
+    if not peers.missing_words():
+        yield "SVM, 160 ms from onset", lambda takes: _outside(takes, peers.learn_svm)
+        yield "1-NN DTW, 160 ms from onset", lambda takes: _outside(takes, peers.learn_nearest)
+
+
+def _outside(takes: TakeSet, learn: Callable[..., peers.Predict]) -> Hear:
+    predict = learn(peers.windows(takes, peers.onsets_s(takes)), takes.labels)
+
+    def listen(others: TakeSet) -> list[Answer]:
+        begin_s = peers.onsets_s(others)
+        activation_s = others.activation / (others.rate_hz or RATE_UNKNOWN_HZ)
+        done_s = np.maximum(begin_s + peers.WINDOW_S, activation_s).tolist()
+        return list(zip(predict(peers.windows(others, begin_s)), done_s, strict=True))
+
+    return listen
+
+
+def _hearer(model: Model) -> Hear:
+    def listen(takes: TakeSet) -> list[Answer]:
+        answers = [hear(model, takes, i) for i in range(len(takes))]
+        return [(answer.label, answer.decided_s) for answer in answers]
+
+    return listen
+
+
+def _score(parts: Sequence[Part], learn: Learn) -> Evaluation:
+    """What a recogniser makes of all parts together; it learns once for the same takes."""
+    pairs: list[tuple[str, str | None]] = []
+    took_ms: list[float] = []
+    learned: tuple[TakeSet, Hear] | None = None
+    for seen, unseen in parts:
+        if learned is None or learned[0] is not seen:
+            learned = (seen, learn(seen))
+        answers = learned[1](unseen)
+        pairs += zip(unseen.labels, (label for label, _ in answers), strict=True)
+        took_ms += [
+            1000.0 * (decided_s - begin_s)
+            for (label, decided_s), begin_s in zip(answers, peers.onsets_s(unseen), strict=True)
+            if label is not None
+        ]
+    labels = tuple(dict.fromkeys(label for seen, _ in parts for label in seen.labels))
+    return tally(labels, pairs, took_ms)
+
+
+def _adapted(parts: Sequence[Part]) -> Iterator[tuple[str, Evaluation]]:
+    """Ours after the first takes of each gesture only; counts it refuses to train from are out."""
+    for count in ADAPTED_TO:
+        fewer: dict[int, TakeSet] = {id(seen): _first(seen, count) for seen, _ in parts}
+        try:
+            found = _score([(fewer[id(seen)], unseen) for seen, unseen in parts], learn_ours)
+        except NotEnoughTakes:
+            continue
+        yield f"{count} takes", found
+
+
+def _by_setting(parts: Sequence[Part]) -> Iterator[tuple[str, Evaluation]]:
+    """Ours with other thresholds: fewer wrong ones cost answers."""
+    models = {id(seen): train(seen, seed=SEED, is_validated=False) for seen, _ in parts}
+    if any(model.decision is None for model in models.values()):
+        return
+    for early, last in SETTINGS:
+
+        def learn(seen: TakeSet, early: float = early, last: float = last) -> Hear:
+            model = models[id(seen)]
+            assert model.decision is not None
+            decision = replace(model.decision, early=early, last=last)
+            return _hearer(replace(model, decision=decision))
+
+        yield f"{early:g} / {last:g}", _score(parts, learn)
+
+
+def _splits(takes: TakeSet) -> Iterator[tuple[str, list[Part]]]:
+    users = list(dict.fromkeys(takes.user))
+    alone = [_of(takes, user) for user in users] or [takes]
+    if len(set(takes.repetition)) > 1:
+        parts = [part for own in alone for part in _folds(own, FoldBy.REPETITION)]
+        yield "each person alone, by repetition", parts
+    if len(users) > 1:
+        yield "one person left out", list(_folds(takes, FoldBy.USER))
+
+
+def _folds(takes: TakeSet, by: FoldBy) -> Iterator[Part]:
+    division = divide(takes, by)
+    for number in range(division.n_folds):
+        is_out = division.fold == number
+        yield (
+            takes.select(np.flatnonzero(~is_out).tolist()),
+            takes.select(np.flatnonzero(is_out).tolist()),
+        )
+
+
+def _first(takes: TakeSet, count: int) -> TakeSet:
+    """The first so many takes of each gesture."""
+    seen: dict[str, int] = {}
+    rows = []
+    for row, label in enumerate(takes.labels):
+        seen[label] = seen.get(label, 0) + 1
+        if seen[label] <= count:
+            rows.append(row)
+    return takes.select(rows)
+
+
+def _of(takes: TakeSet, user: str) -> TakeSet:
+    return takes.select([i for i, name in enumerate(takes.user) if name == user])
+
+
+def _notes() -> list[str]:
+    missing = peers.missing_words()
+    return [
+        "Every take was heard by a recogniser that had not seen it. Times are from the onset of "
+        "the movement, of a posture from the activation; of answers with a gesture only.",
+        *([missing] if missing else []),
+    ]
+
+
+def _cell(shares: tuple[float, float, float] | None) -> str:
+    return "" if shares is None else f"{100 * shares[0]:.1f} ({100 * shares[1]:.1f})"

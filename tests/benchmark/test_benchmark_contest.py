@@ -1,0 +1,108 @@
+"""Recognisers side by side: who hears what, and how the tables read."""
+
+import json
+
+import numpy as np
+import pytest
+
+from gestureapp import cli
+from gestureapp.benchmark import contest, peers
+from gestureapp.benchmark.contest import at_onset, measure_file, measure_simulated
+from gestureapp.errors import ModelError
+from gestureapp.recognition import training
+from gestureapp.recognition.takes import TakeSet, save_takes
+
+REST_S = 0.5
+
+
+@pytest.fixture
+def few_cycles(monkeypatch):
+    monkeypatch.setattr(training, "PAPER_CYCLES", 400)
+    monkeypatch.setattr(contest, "TRAINED_ON", 6)
+    monkeypatch.setattr(contest, "TESTED_ON", 2)
+    monkeypatch.setattr(contest, "ADAPTED_TO", (1, 6))
+    monkeypatch.setattr(contest, "SETTINGS", ((0.95, 0.6),))
+
+
+def pushes(begin=60, **who):
+    """Two people push two ways ten times each; the hand moves from the 60th sample on."""
+    rng = np.random.default_rng(2)
+    parts, labels = [], []
+    for _ in range(20):
+        for label, push_g in (("to", 1.0), ("fro", -1.0)):
+            parts.append(rng.normal([0.0, 0.0, 1.0], 0.01, (100, 3)))
+            parts[-1][begin : begin + 20, 0] += push_g
+            labels.append(label)
+    offsets = np.cumsum([0, *map(len, parts)])
+    activation = np.full(40, 57)
+    return TakeSet(np.concatenate(parts), offsets, tuple(labels), activation, rate_hz=100.0, **who)
+
+
+WHO = {"user": ("a",) * 20 + ("b",) * 20, "repetition": tuple(f"{n // 2 % 10}" for n in range(40))}
+
+
+@pytest.mark.usefixtures("few_cycles")
+def test_a_file_is_heard_by_repetition_and_by_person(tmp_path, capsys):
+    path = tmp_path / "takes.npz"
+    save_takes(path, pushes(**WHO))
+
+    assert cli.main(["benchmark", "recognition", "--takes", str(path), "--json"]) == cli.FINE
+
+    found = json.loads(capsys.readouterr().out)
+    titles = [table["title"] for table in found["contests"]]
+    assert titles == [
+        f"takes.npz, {words}"
+        for words in ("each person alone, by repetition", "one person left out")
+    ]
+    for table in found["contests"]:
+        assert {"paper, from activation", "paper, from onset", "ours"} <= set(table["columns"])
+        assert all(column["n"] == 40 for column in table["columns"].values())
+        assert table["columns"]["paper, from onset"]["recognised"] == 1.0
+
+
+@pytest.mark.usefixtures("few_cycles")
+def test_simulated_people_are_heard_on_later_days_and_by_takes():
+    report = measure_simulated(1)
+
+    first, adapted, _ = report.contests
+    assert {evaluation.n for _, evaluation in first.columns} == {12 * 2 * 3}
+    assert "6 takes" in dict(adapted.columns)
+    table = report.as_table()
+    assert "| recognised, % |" in table
+    assert "\n| RZ- |" in table
+
+
+def test_a_library_that_is_missing_is_said_with_its_remedy(monkeypatch):
+    monkeypatch.setattr(peers, "find_spec", lambda name: None if name == "sklearn" else object())
+    assert peers.missing_words() == (
+        "SVM and 1-NN DTW are left out: scikit-learn is not installed here: "
+        "pip install 'gestureapp[peers]'"
+    )
+
+
+def test_takes_that_say_neither_person_nor_repetition_are_refused_in_words(tmp_path):
+    save_takes(tmp_path / "takes.npz", pushes())
+    with pytest.raises(ModelError, match="nothing to split by"):
+        measure_file(tmp_path / "takes.npz")
+
+
+def test_the_onset_is_where_the_hand_begins_to_move_even_before_the_activation():
+    assert set(at_onset(pushes()).activation.tolist()) <= {59, 60}
+    assert set(at_onset(pushes(begin=50)).activation.tolist()) <= {49, 50}
+    assert set(at_onset(pushes(begin=100)).activation.tolist()) == {57}
+
+
+def test_the_window_of_the_peers_begins_at_the_onset():
+    takes = pushes()
+    found = peers.windows(takes, peers.onsets_s(takes))
+    assert found.shape == (40, peers.STEPS, 3)
+    assert np.abs(found[:, 2:, 0]).min() > 0.9
+
+
+@pytest.mark.parametrize("learn", [peers.learn_svm, peers.learn_nearest])
+def test_peers_learn_what_is_easy(learn):
+    pytest.importorskip("sklearn")
+    pytest.importorskip("dtaidistance")
+    takes = pushes()
+    seen = peers.windows(takes, peers.onsets_s(takes))
+    assert list(learn(seen, takes.labels)(seen)) == list(takes.labels)
