@@ -46,8 +46,11 @@ from gestureapp.config import DriveMode
 from gestureapp.robot.values import StopReason
 from gestureapp.sensing.values import ArmPosture, Side
 
-DECISION_LIMIT_S = 1.0
-"""An activation without outcome is given up after this; the recogniser answers long before."""
+DECISION_LIMIT_S = 2.5
+"""An activation without outcome is given up after this; the recogniser answers before: it waits up
+to 1.5 s for a movement, then has half a second at most to decide."""
+PROPOSAL_LIMIT_S = 1.0
+"""The guardian answers a proposal at once; without an answer for so long something is broken."""
 ARMING_LIMIT_S = 3.0
 """The guardian gives or refuses permission within 2 s; without an answer arming is given up."""
 
@@ -81,7 +84,7 @@ class MachineState:
         blockers: What stands against arming.
         arming_since_s: When permission was asked for; None once the guardian has answered.
         has_permission: The guardian has taken the operator's permission and not lost it.
-        is_proposed: A proposal is out for the present activation.
+        proposed_s: When a proposal went out for the present activation; None when none has.
         stop_reason: Of the last stop.
         note: Why it is in this state, for a person.
         is_stop_unconfirmed: The robot has not confirmed a stop in time.
@@ -96,10 +99,15 @@ class MachineState:
     blockers: tuple[Blocker, ...] = ()
     arming_since_s: float | None = None
     has_permission: bool = False
-    is_proposed: bool = False
+    proposed_s: float | None = None
     stop_reason: StopReason | None = None
     note: str = ""
     is_stop_unconfirmed: bool = False
+
+    @property
+    def is_proposed(self) -> bool:
+        """A proposal is out for the present activation."""
+        return self.proposed_s is not None
 
     @property
     def is_at_rest(self) -> bool:
@@ -158,10 +166,17 @@ def _ticked(s: MachineState, event: Ticked) -> Step:
         return _enter(s, CellState.READY, event.t_s, ""), ()
     if s.state is CellState.READY and s.blockers:
         return _enter(s, CellState.NOT_READY, event.t_s, s.note), ()
-    if s.state is CellState.ACTIVATED and event.t_s - s.since_s > DECISION_LIMIT_S:
-        if s.is_proposed:
-            return _ask_stop(s, event.t_s, StopReason.CELL_FAULT, "no answer to a proposal")
-        return _give_up(s, event.t_s, "no decision in time")
+    if s.state is CellState.ACTIVATED:
+        return _waited(s, event.t_s)
+    return s, ()
+
+
+def _waited(s: MachineState, t_s: float) -> Step:
+    if s.proposed_s is not None:
+        if t_s - s.proposed_s > PROPOSAL_LIMIT_S:
+            return _ask_stop(s, t_s, StopReason.CELL_FAULT, "no answer to a proposal")
+    elif t_s - s.since_s > DECISION_LIMIT_S:
+        return _give_up(s, t_s, "no decision in time")
     return s, ()
 
 
@@ -172,7 +187,7 @@ def _left_posture(s: MachineState, event: LeftPosture, rules: Rules) -> Step:
     s = replace(s, posture=event.posture, stop_since_s=stop_since_s, is_left_rested=is_rested)
     if s.state is CellState.ARMED and event.posture is ArmPosture.START and s.is_left_rested:
         activation_id = s.activation_id + 1
-        s = replace(s, activation_id=activation_id, is_left_rested=False, is_proposed=False)
+        s = replace(s, activation_id=activation_id, is_left_rested=False, proposed_s=None)
         s = _enter(s, CellState.ACTIVATED, event.t_s, "")
         return s, (BeginCollecting(activation_id, event.t_s),)
     if s.state in (CellState.ACTIVATED, CellState.MOVING) and _ends_move(event.posture, rules):
@@ -209,7 +224,7 @@ def _decided(s: MachineState, event: Decided) -> Step:
     if event.label is None:
         return _give_up(s, event.t_s, event.text)
     proposal = SendProposal(event.activation_id, event.label, event.t_s)
-    return replace(s, is_proposed=True, note=event.text), (proposal, Say(event.text))
+    return replace(s, proposed_s=event.t_s, note=event.text), (proposal, Say(event.text))
 
 
 def _pressed(
@@ -348,7 +363,7 @@ def _is_latched_stop(s: MachineState) -> bool:
 
 def _give_up(s: MachineState, t_s: float, note: str) -> Step:
     """End an activation from which nothing has moved."""
-    s = replace(s, is_proposed=False)
+    s = replace(s, proposed_s=None)
     return _enter(s, CellState.ARMED, t_s, note), (EndCollecting(), Say(note))
 
 

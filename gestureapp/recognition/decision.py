@@ -11,6 +11,7 @@ EARLY_OF_OTHERS = 0.97
 """For a model without takes of the person."""
 BUDGET_S = 0.160
 """After the later of activation and onset. Source: paper, its response time."""
+BUDGET_MOST_S = 0.5
 CANDIDATE = 0.25
 """Two gestures that are both at least so likely at the end are two candidates."""
 
@@ -23,7 +24,7 @@ class Decision:
         early: At or above this the likeliest gesture is the answer at once; 0 to 1.
         last: At or above this it is when the budget is over; not above ``early``.
         onset_g: Deviation from the baseline that is a movement of this person, 0.02 to 2 g.
-        budget_s: The answer is there so long after the later of activation and onset, 0.05 to 1.
+        budget_s: The answer is there so long after the later of activation and onset, 0.05 to 0.5.
 
     Raises:
         ValueError: one is out of its range.
@@ -35,7 +36,7 @@ class Decision:
     budget_s: float = BUDGET_S
 
     def __post_init__(self) -> None:
-        ranges = {"early": (0.0, 1.0), "onset_g": (0.02, 2.0), "budget_s": (0.05, 1.0)}
+        ranges = {"early": (0.0, 1.0), "onset_g": (0.02, 2.0), "budget_s": (0.05, BUDGET_MOST_S)}
         for name, (least, most) in ranges.items():
             value = getattr(self, name)
             if not least < value <= most:

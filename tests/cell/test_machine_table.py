@@ -5,9 +5,18 @@ from dataclasses import dataclass, replace
 import pytest
 
 from gestureapp.cell import events as e
-from gestureapp.cell.machine import ARMING_LIMIT_S, DECISION_LIMIT_S, MachineState, Rules, step
+from gestureapp.cell.machine import (
+    ARMING_LIMIT_S,
+    DECISION_LIMIT_S,
+    PROPOSAL_LIMIT_S,
+    MachineState,
+    Rules,
+    step,
+)
 from gestureapp.cell.snapshot import Blocker, CellState
 from gestureapp.config import DriveMode
+from gestureapp.recognition.decision import BUDGET_MOST_S
+from gestureapp.recognition.onset import GIVE_UP_S, GRACE_S
 from gestureapp.robot.values import StopReason
 from gestureapp.sensing.values import ArmPosture, Side
 
@@ -28,8 +37,8 @@ STATES = {
     "armed": replace(ARMED, state=S.ARMED, is_left_rested=True),
     "armed, not rested": replace(ARMED, state=S.ARMED, posture=ArmPosture.START),
     "activated": replace(ARMED, state=S.ACTIVATED, posture=ArmPosture.START),
-    "proposed": replace(ARMED, state=S.ACTIVATED, posture=ArmPosture.START, is_proposed=True),
-    "moving": replace(ARMED, state=S.MOVING, posture=ArmPosture.START, is_proposed=True),
+    "proposed": replace(ARMED, state=S.ACTIVATED, posture=ArmPosture.START, proposed_s=99.9),
+    "moving": replace(ARMED, state=S.MOVING, posture=ArmPosture.START, proposed_s=99.9),
     "stopping, left arm": replace(ARMED, state=S.STOPPING, stop_reason=StopReason.LEFT_ARM),
     "stopping, not permitted": replace(BASE, state=S.STOPPING, stop_reason=StopReason.LEFT_ARM),
     "stopping, latched": replace(BASE, state=S.STOPPING, stop_reason=StopReason.STOP_PRESSED),
@@ -330,3 +339,19 @@ def test_stop_without_any_robot_is_told_and_asks_nobody(state: str):
     after, effects = step(STATES[state], e.StopPressed(NOW_S), rules)
     assert after == STATES[state]
     assert [type(effect) for effect in effects] == [e.Say]
+
+
+def test_a_late_decision_leaves_the_proposal_its_whole_time():
+    proposed = replace(STATES["activated"], since_s=0.0)
+    decided_s = DECISION_LIMIT_S - 0.1
+    proposed, _ = step(proposed, e.Decided(decided_s, ID, "X+", "recognised X+"), Rules())
+
+    waiting, effects = step(proposed, e.Ticked(decided_s + PROPOSAL_LIMIT_S, ()), Rules())
+    stopping, _ = step(proposed, e.Ticked(decided_s + PROPOSAL_LIMIT_S + 0.01, ()), Rules())
+
+    assert (waiting.state, effects) == (S.ACTIVATED, ())
+    assert stopping.state is S.STOPPING
+
+
+def test_the_recogniser_has_always_answered_before_an_activation_is_given_up():
+    assert GIVE_UP_S + BUDGET_MOST_S + GRACE_S + 0.1 < DECISION_LIMIT_S

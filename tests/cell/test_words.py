@@ -41,7 +41,7 @@ SENTENCES = [
         "No movement of the right arm. Lower the left arm to the stop posture first.",
     ),
     (replace(BASE, state=S.ACTIVATED), HOLD, "Watching the right arm."),
-    (replace(BASE, state=S.ACTIVATED, is_proposed=True), HOLD, "Recognised X+. Asking the robot."),
+    (replace(BASE, state=S.ACTIVATED, proposed_s=0.0), HOLD, "Recognised X+. Asking the robot."),
     (replace(BASE, state=S.MOVING), HOLD, "Recognised X+. Lower the left arm to stop."),
     (
         replace(BASE, state=S.MOVING),
