@@ -62,10 +62,10 @@ class GesturePanel(QFrame):
         if guided is not None:
             self._keep = KeepHeard("keepOperated", guided, is_tried=False)
             layout.addWidget(self._keep)
-        # Two lines are kept for texts that come and go, so that nothing jumps.
-        for text in (self._words, self._time):
+        # Lines are kept for texts that come and go, so that nothing jumps.
+        for text, lines in ((self._words, 2), (self._time, 1)):
             text.setAlignment(Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignTop)
-            text.setMinimumHeight(2 * text.fontMetrics().lineSpacing())
+            text.setMinimumHeight(lines * text.fontMetrics().lineSpacing())
         self.show_recognition(None, None)
 
     def show_recognition(

@@ -5,10 +5,11 @@ from PySide6.QtWidgets import QHBoxLayout, QPushButton, QWidget
 
 from gestureapp.guided.controls import GuidedControls
 from gestureapp.guided.values import Heard
-from ui.labels import ElidedLabel
+from ui.labels import plain
 from ui.theme import SMALL_PX, TEXT_PX, sized
 
 _HEIGHT = 30
+"""Two lines of small text fit as well."""
 
 
 class KeepHeard(QWidget):
@@ -35,10 +36,7 @@ class KeepHeard(QWidget):
         # Space is a key for STOP, and must not press what was clicked last.
         self._button.setFocusPolicy(Qt.FocusPolicy.TabFocus)
         sized(self._button, TEXT_PX)
-        self._words = ElidedLabel()
-        self._words.setObjectName(f"{name}Words")
-        self._words.setTextFormat(Qt.TextFormat.PlainText)
-        sized(self._words, SMALL_PX)
+        self._words = plain(f"{name}Words", SMALL_PX)
         layout = QHBoxLayout(self)
         layout.setContentsMargins(0, 0, 0, 0)
         layout.setSpacing(8)

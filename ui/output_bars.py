@@ -12,7 +12,9 @@ _LABEL_PX = 15
 _NUMBER_PX = 12
 _NUMBERED = 0.25
 """From here on a bar has its number: what could be one of two candidates."""
-_NONE_SHARE = 1.3
+_ROOMY = 26
+"""Pixels for each bar; with less the labels are a pixel smaller."""
+_NONE_SHARE = 1.2
 """The word "none" is wider than the labels of gestures."""
 
 
@@ -62,9 +64,10 @@ class OutputBars(QWidget):
         painter = QPainter(self)
         colours = colours_of(self.palette())
         font = QFont(self.font())
-        font.setPixelSize(SMALL_PX - 1)
-        painter.setFont(font)
         candidates = self._outputs or tuple(Candidate(label, 0.0) for label in LABELS)
+        is_narrow = self.width() < _ROOMY * len(candidates)
+        font.setPixelSize(SMALL_PX - (2 if is_narrow else 1))
+        painter.setFont(font)
         area = QRectF(0, _NUMBER_PX, self.width(), self.height() - _LABEL_PX - _NUMBER_PX)
         shares = [_NONE_SHARE if c.label == NO_GESTURE else 1.0 for c in candidates]
         left = 0.0
@@ -93,7 +96,8 @@ class OutputBars(QWidget):
         painter.fillRect(filled, QColor(bar))
         painter.setPen(QColor(colours.text if has_reached or is_numbered else colours.muted))
         below = QRectF(slot.left() - 3, slot.bottom() + 1, slot.width() + 6, _LABEL_PX - 1)
-        painter.drawText(below, Qt.AlignmentFlag.AlignCenter, candidate.label)
+        whole = Qt.AlignmentFlag.AlignCenter | Qt.TextFlag.TextDontClip
+        painter.drawText(below, whole, candidate.label)
         if is_numbered:
             above = QRectF(slot.left() - 6, slot.top() - _NUMBER_PX, slot.width() + 12, _NUMBER_PX)
             painter.drawText(above, Qt.AlignmentFlag.AlignCenter, f"{candidate.confidence:.2f}")

@@ -223,13 +223,12 @@ def pose_age_text(robot: RobotView) -> str:
 
 
 def decision_text(recognition: Recognition) -> str:
-    """How long the decision took: from the onset where it is known, else from the samples."""
+    """How long the decision took: from the onset where it is known, else from the first sample."""
     if recognition.onset_s is not None:
         onset_ms = (recognition.decided_s - recognition.onset_s) * 1000
-        return f"decided {onset_ms:.0f} ms after the onset of the movement"
+        return f"decided {onset_ms:.0f} ms after the onset"
     first_ms = (recognition.decided_s - recognition.window_start_s) * 1000
-    last_ms = (recognition.decided_s - recognition.window_end_s) * 1000
-    return f"decided {first_ms:.0f} ms after the first sample, {last_ms:.0f} ms after the last"
+    return f"decided {first_ms:.0f} ms after the first sample"
 
 
 def needed_text(certainty: float, thresholds: tuple[float, ...]) -> str:

@@ -138,7 +138,7 @@ def test_an_answer_from_the_onset_says_how_long_it_took_and_what_it_needed(windo
     for certainty, needed in ((0.97, "0.95 at once"), (0.7, "0.60 in the end")):
         answer = scenes.followed("Y+", certainty)
         show(window, cell, replace(cell.shown, recognition=answer))
-        assert text_of(window, "decisionLabel") == "decided 62 ms after the onset of the movement"
+        assert text_of(window, "decisionLabel") == "decided 62 ms after the onset"
         bar = window.findChild(QProgressBar, "certaintyBar")
         assert bar.format() == f"certainty {certainty:.2f}, needed {needed}"
 
