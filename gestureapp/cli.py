@@ -159,7 +159,7 @@ def _add_simulate(commands: "argparse._SubParsersAction[argparse.ArgumentParser]
 
 def _add_benchmark(commands: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
     benchmark = commands.add_parser("benchmark", help="measure the figures of the README")
-    figures = ("latency", "stop", "training", "recognition", "startup", "faults")
+    figures = ("latency", "stop", "training", "hearing", "recognition", "startup", "faults")
     benchmark.add_argument("what", choices=figures)
     benchmark.add_argument("--seconds", type=_seconds, default=40.0, help="at least, per case")
     benchmark.add_argument("--runs", type=_count, default=3, help="of each fault")

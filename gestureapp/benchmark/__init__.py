@@ -22,9 +22,9 @@ def measure(what: str, seconds: float, open_window: OpenWindow | None) -> Report
     """Measure one of the figures.
 
     Args:
-        what: ``latency``, ``stop``, ``training`` or ``startup``.
-        seconds: How long each case runs at least; training takes what it takes.
-        open_window: Opens the window that is drawn meanwhile; needed for all but ``training``.
+        what: ``latency``, ``stop``, ``training``, ``hearing`` or ``startup``.
+        seconds: How long each case runs at least; training and hearing take what they take.
+        open_window: Opens the window that is drawn meanwhile; not needed for those two.
 
     Raises:
         GestureAppError: the cell could not be started, there is no such figure, or no window.
@@ -33,6 +33,10 @@ def measure(what: str, seconds: float, open_window: OpenWindow | None) -> Report
         from gestureapp.benchmark.training import measure_training
 
         return measure_training()
+    if what == "hearing":
+        from gestureapp.benchmark.hearing import measure_hearing
+
+        return measure_hearing()
     if open_window is None:
         raise ConfigError("benchmark", what, "needs the window: run it as gestureapp")
     if what == "latency":

@@ -9,7 +9,7 @@ import pytest
 
 
 @pytest.mark.process
-@pytest.mark.parametrize("what", ["latency", "stop"])
+@pytest.mark.parametrize("what", ["latency", "stop", "hearing"])
 def test_a_short_run_measures_every_row(what):
     environment = {**os.environ, "QT_QPA_PLATFORM": "offscreen"}
     done = subprocess.run(

@@ -2,11 +2,17 @@
 
 from dataclasses import replace
 
+import numpy as np
+
 from gestureapp.cell import events as e
 from gestureapp.cell.ear import describe_model, open_model
 from gestureapp.cell.inputs import ModelChosen, TrainingHeld
 from gestureapp.cell.snapshot import CellState
+from gestureapp.recognition.decision import Decision
+from gestureapp.recognition.ensemble import Ensemble, Layer
 from gestureapp.recognition.model_file import LiveFigure, load_model, save_model
+from gestureapp.recognition.onset import OnsetRecogniser
+from gestureapp.recognition.window import N_INPUTS
 from gestureapp.robot import messages as m
 from gestureapp.robot.values import StopReason
 from gestureapp.simulation.demo import MODEL
@@ -31,6 +37,25 @@ def test_open_training_stands_against_arming_until_it_is_closed(desk):
     assert desk.state is S.READY
     desk.press(e.ArmPressed(desk.now_s))
     assert desk.run(0.5, S.ARMED)
+
+
+def test_a_model_of_kind_onset_is_opened_with_its_own_recogniser(tmp_path):
+    shape = (1, N_INPUTS)
+    layer = Layer(np.zeros((1, N_INPUTS, 3)), np.zeros((1, 3)))
+    model = replace(
+        load_model(MODEL),
+        kind="onset",
+        labels=("X+", "X-"),
+        network=Ensemble(np.zeros(shape), np.ones(shape), (layer,)),
+        cross_validation=None,
+        decision=Decision(),
+    )
+    save_model(tmp_path / "m.json", model)
+
+    opened = open_model(tmp_path / "m.json")
+
+    assert isinstance(opened.recogniser, OnsetRecogniser)
+    assert (opened.recogniser.labels, opened.problem) == (("X+", "X-"), "")
 
 
 def test_opening_training_takes_the_permission_back(desk):
