@@ -1,4 +1,4 @@
-"""The commands ``train`` and ``evaluate``: takes in an NPZ file, and what comes of them."""
+"""The commands ``train``, ``evaluate`` and ``train-base``: takes, and what comes of them."""
 
 import argparse
 import dataclasses
@@ -17,7 +17,7 @@ def add_commands(commands: "argparse._SubParsersAction[argparse.ArgumentParser]"
     train = commands.add_parser("train", help="train a model from takes")
     train.add_argument("takes", type=Path, metavar="TAKES.npz")
     train.add_argument("-o", "--out", type=Path, required=True, metavar="MODEL.json")
-    train.add_argument("--preset", choices=("paper", "default"), default="default")
+    train.add_argument("--preset", choices=("onset", "paper", "small"), default="onset")
     train.add_argument("--seed", type=_seed, default=0)
     train.add_argument(
         "--folds",
@@ -33,6 +33,10 @@ def add_commands(commands: "argparse._SubParsersAction[argparse.ArgumentParser]"
     evaluate.add_argument("--json", action="store_true")
     evaluate.set_defaults(run=_evaluate)
 
+    base = commands.add_parser("train-base")  # no help: for who changes the features
+    base.add_argument("folder", type=Path)
+    base.set_defaults(run=_train_base)
+
 
 def _train(options: argparse.Namespace) -> int:
     from gestureapp.errors import ModelError
@@ -45,28 +49,44 @@ def _train(options: argparse.Namespace) -> int:
     takes = load_takes(options.takes)
     _check_place(options.out)
     left_out = _tell_about(takes)
-    is_shown = sys.stderr.isatty()
-
-    def progress(done: int, total: int, loss: float) -> None:
-        if is_shown:
-            sys.stderr.write(f"\r{done} of {total}, loss {loss:.5f} ")
-
     try:
         model = train(
             takes,
             Preset(options.preset),
             options.seed,
-            progress,
+            _show_progress,
             takes_from=str(options.takes),
             folds=FoldBy(options.folds) if options.folds else None,
         )
     except ValueError as error:
         raise ModelError(options.takes, str(error)) from error
     save_model(options.out, model)
-    if is_shown:
-        sys.stderr.write("\n")
+    _end_progress()
     _write(_train_json(options.out, model, left_out) if options.json else _text(options.out, model))
     return 0
+
+
+def _train_base(options: argparse.Namespace) -> int:
+    """Train the shared base model of ``resources/models``: minutes."""
+    from gestureapp.benchmark.base_model import make_base
+    from gestureapp.recognition.base import BASE
+
+    out: Path = options.folder / BASE.name
+    _check_place(out)
+    model = make_base(options.folder, progress=_show_progress)
+    _end_progress()
+    _write(_text(out, model))
+    return 0
+
+
+def _show_progress(done: int, total: int, loss: float) -> None:
+    if sys.stderr.isatty():
+        sys.stderr.write(f"\r{done} of {total}, loss {loss:.5f} ")
+
+
+def _end_progress() -> None:
+    if sys.stderr.isatty():
+        sys.stderr.write("\n")
 
 
 def _train_json(out: Path, model: "Model", left_out: int) -> str:

@@ -99,13 +99,26 @@ class Ensemble:
         Returns:
             Shape (outputs,) or (n, outputs); each row sums to 1.
         """
-        values = (np.atleast_2d(inputs) - self.mean[:, None]) / self.scale[:, None]
-        for layer in self.layers[:-1]:
-            values = np.maximum(values @ layer.weights + layer.bias[:, None], 0.0)
-        sums = (values @ self.layers[-1].weights + self.layers[-1].bias[:, None]) / self.temperature
+        sums = self.sums(np.atleast_2d(inputs)) / self.temperature
         powers = np.exp(sums - sums.max(axis=-1, keepdims=True))
         shares: F64 = (powers / powers.sum(axis=-1, keepdims=True)).mean(axis=0)
         return shares[0] if inputs.ndim == 1 else shares
+
+    def sums(self, inputs: F64) -> F64:
+        """What each member's softmax is taken of, before the temperature.
+
+        Args:
+            inputs: Shape (n, inputs).
+
+        Returns:
+            Shape (members, n, outputs).
+        """
+        values = (inputs - self.mean[:, None]) / self.scale[:, None]
+        for layer in self.layers[:-1]:
+            values = np.maximum(values @ layer.weights + layer.bias[:, None], 0.0)
+        last = self.layers[-1]
+        sums: F64 = values @ last.weights + last.bias[:, None]
+        return sums
 
 
 def _rounded(name: str, numbers: F64) -> F64:

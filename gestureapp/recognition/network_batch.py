@@ -25,7 +25,7 @@ _FIRST_WEIGHTS = 0.5
 class Stepper(Protocol):
     """A learning rule: turns gradients into steps of the weights, in place."""
 
-    def __call__(self, weights: tuple[Tensor, Tensor], slopes: tuple[Tensor, Tensor]) -> None:
+    def __call__(self, weights: tuple[Tensor, ...], slopes: tuple[Tensor, ...]) -> None:
         """Change the weights, given the slopes of the error."""
 
 
@@ -103,27 +103,31 @@ class PlainSteps:
     def __init__(self, rate: float) -> None:
         self._rate = rate
 
-    def __call__(self, weights: tuple[Tensor, Tensor], slopes: tuple[Tensor, Tensor]) -> None:
+    def __call__(self, weights: tuple[Tensor, ...], slopes: tuple[Tensor, ...]) -> None:
         """Take the step."""
         for w, slope in zip(weights, slopes, strict=True):
             w.sub_(slope, alpha=self._rate)
 
 
 class AdamSteps:
-    """Adam with its usual constants. Source: Kingma and Ba, Adam, ICLR 2015, algorithm 1."""
+    """Adam with its usual constants. Source: Kingma and Ba, Adam, ICLR 2015, algorithm 1.
+
+    Attributes:
+        rate: Size of the steps; may be changed between them.
+    """
 
     def __init__(self, rate: float) -> None:
-        self._rate, self._n = rate, 0
+        self.rate, self._n = rate, 0
         self._means: list[Tensor] = []
         self._squares: list[Tensor] = []
 
-    def __call__(self, weights: tuple[Tensor, Tensor], slopes: tuple[Tensor, Tensor]) -> None:
+    def __call__(self, weights: tuple[Tensor, ...], slopes: tuple[Tensor, ...]) -> None:
         """Take the step."""
         if not self._n:
             self._means = [slope * 0.0 for slope in slopes]
             self._squares = [slope * 0.0 for slope in slopes]
         self._n += 1
-        size = self._rate / (1.0 - 0.9**self._n)
+        size = self.rate / (1.0 - 0.9**self._n)
         even = (1.0 - 0.999**self._n) ** 0.5
         for w, slope, mean, square in zip(weights, slopes, self._means, self._squares, strict=True):
             mean.lerp_(slope, 0.1)

@@ -25,7 +25,7 @@ class Job:
 
     takes: Path
     out: Path
-    preset: Preset = Preset.DEFAULT
+    preset: Preset = Preset.ONSET
     seed: int = 0
     takes_from: str = ""
 
