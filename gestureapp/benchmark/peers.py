@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from gestureapp.recognition.hearing import RATE_UNKNOWN_HZ
 from gestureapp.recognition.movement import Follower
+from gestureapp.recognition.onset_views import personal_onsets_g, streams_of
 from gestureapp.recognition.takes import TakeSet
 
 F64 = NDArray[np.float64]
@@ -39,13 +40,22 @@ def missing_words() -> str:
     return NOT_INSTALLED.format(f"{' and '.join(missing)} {'is' if len(missing) == 1 else 'are'}")
 
 
-def onsets_s(takes: TakeSet) -> F64:
+def onset_level_g(seen: TakeSet) -> float:
+    """How far from rest a movement has begun, learned from takes as our recogniser learns it."""
+    return personal_onsets_g(streams_of(seen), [np.ones(len(seen), dtype=np.bool_)])[0]
+
+
+def onsets_s(takes: TakeSet, level_g: float) -> F64:
     """When the right arm begins to move, from each take's begin; shape (takes,).
 
     The movement under way at the activation, or the first after it; a posture that is held then, or
     a take without movement, counts from the activation.
+
+    Args:
+        takes: Any.
+        level_g: ``onset_level_g`` of the takes that were learned from.
     """
-    return np.array([_onset_s(takes, i) for i in range(len(takes))])
+    return np.array([_onset_s(takes, i, level_g) for i in range(len(takes))])
 
 
 def windows(takes: TakeSet, begin_s: F64) -> F64:
@@ -94,10 +104,10 @@ def learn_nearest(seen: F64, labels: Sequence[str]) -> Predict:
     return lambda asked: [nearest(course) for course in asked]
 
 
-def _onset_s(takes: TakeSet, index: int) -> float:
+def _onset_s(takes: TakeSet, index: int, level_g: float) -> float:
     rate_hz = takes.rate_hz or RATE_UNKNOWN_HZ
     activation = int(takes.activation[index])
-    follower = Follower()
+    follower = Follower(level_g)
     for k, (x, y, z) in enumerate(takes.accel_g(index).tolist()):
         follower.feed(k / rate_hz, (x, y, z))
         if k < activation:

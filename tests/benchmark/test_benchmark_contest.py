@@ -21,6 +21,7 @@ def few_cycles(monkeypatch):
     monkeypatch.setattr(contest, "TRAINED_ON", 6)
     monkeypatch.setattr(contest, "TESTED_ON", 2)
     monkeypatch.setattr(contest, "ADAPTED_TO", (1, 6))
+    monkeypatch.setattr(contest, "NEGATIVES", 16)
     monkeypatch.setattr(contest, "SETTINGS", ((0.95, 0.6),))
 
 
@@ -64,7 +65,8 @@ def test_a_file_is_heard_by_repetition_and_by_person(tmp_path, capsys):
 def test_simulated_people_are_heard_on_later_days_and_by_takes():
     report = measure_simulated(1)
 
-    first, adapted, _ = report.contests
+    first, adapted, _, nothing = report.contests
+    assert dict(nothing.columns)["ours"].n == 16
     assert {evaluation.n for _, evaluation in first.columns} == {12 * 2 * 3}
     assert "6 takes" in dict(adapted.columns)
     table = report.as_table()
@@ -87,14 +89,14 @@ def test_takes_that_say_neither_person_nor_repetition_are_refused_in_words(tmp_p
 
 
 def test_the_onset_is_where_the_hand_begins_to_move_even_before_the_activation():
-    assert set(at_onset(pushes()).activation.tolist()) <= {59, 60}
-    assert set(at_onset(pushes(begin=50)).activation.tolist()) <= {49, 50}
-    assert set(at_onset(pushes(begin=100)).activation.tolist()) == {57}
+    assert set(at_onset(pushes(), 0.1).activation.tolist()) <= {59, 60}
+    assert set(at_onset(pushes(begin=50), 0.1).activation.tolist()) <= {49, 50}
+    assert set(at_onset(pushes(begin=100), 0.1).activation.tolist()) == {57}
 
 
 def test_the_window_of_the_peers_begins_at_the_onset():
     takes = pushes()
-    found = peers.windows(takes, peers.onsets_s(takes))
+    found = peers.windows(takes, peers.onsets_s(takes, peers.onset_level_g(takes)))
     assert found.shape == (40, peers.STEPS, 3)
     assert np.abs(found[:, 2:, 0]).min() > 0.9
 
@@ -104,5 +106,5 @@ def test_peers_learn_what_is_easy(learn):
     pytest.importorskip("sklearn")
     pytest.importorskip("dtaidistance")
     takes = pushes()
-    seen = peers.windows(takes, peers.onsets_s(takes))
+    seen = peers.windows(takes, peers.onsets_s(takes, peers.onset_level_g(takes)))
     assert list(learn(seen, takes.labels)(seen)) == list(takes.labels)
