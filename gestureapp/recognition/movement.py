@@ -82,6 +82,13 @@ class Follower:
         self._least_far_g = math.inf
 
     @property
+    def step_s(self) -> float:
+        """Mean time between the samples of the last second; 0 before the second one."""
+        n = self._end - self._begin
+        span_s = self._times[self._end - 1] - self._times[self._begin] if n > 1 else 0.0
+        return float(span_s) / max(n - 1, 1)
+
+    @property
     def is_posture(self) -> bool:
         """The arm is held still and tilted."""
         return self.is_still and bool(self.now_g[2] < TILT * (_length(self.now_g) + 1e-9))

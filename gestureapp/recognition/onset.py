@@ -26,8 +26,6 @@ OLDEST_S = 0.45
 """A movement that began longer ago is not asked about: the cells do not reach so far."""
 GIVE_UP_S = 1.5
 """Without an onset for so long after the activation: no movement."""
-GRACE_S = 0.02
-"""``check`` ends the budget so much later: the sample that would end it may be on its way."""
 STALE_S = 0.08
 """The last question counts at the end of the budget when it was asked less than this before."""
 JUST_S = 1e-9
@@ -114,7 +112,7 @@ class OnsetRecogniser:
         request = self._request
         if request is None:
             return None
-        if t_s > request.begin_s + self._decision.budget_s + GRACE_S:
+        if t_s > request.begin_s + self._decision.budget_s + JUST_S:
             return self._last(request, t_s)
         heard_s = max(request.activation_s, self._follower.newest_s)
         if t_s > heard_s + SILENT_AFTER_S:
@@ -135,19 +133,21 @@ class OnsetRecogniser:
                 return self._answer(request, t_s, None, why)
             else:
                 return None
-        if t_s > request.begin_s + self._decision.budget_s + JUST_S:
-            return self._last(request, t_s)
-        if (is_moving and elapsed_s >= MIN_ELAPSED_S) or follower.is_posture:
-            return self._ask(request, t_s)
-        return None
+        end_s = request.begin_s + self._decision.budget_s + JUST_S
+        if t_s <= end_s and ((is_moving and elapsed_s >= MIN_ELAPSED_S) or follower.is_posture):
+            label = self._ask(request, t_s)
+            if label is not None:
+                return self._answer(request, t_s, label, "")
+        # The answer does not wait for a sample that is due after the budget.
+        return self._last(request, t_s) if t_s + follower.step_s > end_s else None
 
-    def _ask(self, request: _Request, t_s: float) -> Recognition | None:
+    def _ask(self, request: _Request, t_s: float) -> str | None:
+        """The gesture that is sure already, or None."""
         values = self._network.outputs(inputs_of(self._follower.moment())).tolist()
         request.outputs = tuple(map(Candidate, self._names, values))
         request.asked_s = t_s
         request.onset_s = self._follower.onset_s if self._follower.is_moving else None
-        label = judge_early(request.outputs, self._decision)
-        return self._answer(request, t_s, label, "") if label is not None else None
+        return judge_early(request.outputs, self._decision)
 
     def _last(self, request: _Request, t_s: float) -> Recognition:
         end_s = request.begin_s + self._decision.budget_s

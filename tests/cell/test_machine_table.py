@@ -16,7 +16,7 @@ from gestureapp.cell.machine import (
 from gestureapp.cell.snapshot import Blocker, CellState
 from gestureapp.config import DriveMode
 from gestureapp.recognition.decision import BUDGET_MOST_S
-from gestureapp.recognition.onset import GIVE_UP_S, GRACE_S
+from gestureapp.recognition.onset import GIVE_UP_S
 from gestureapp.robot.values import StopReason
 from gestureapp.sensing.values import ArmPosture, Side
 
@@ -354,4 +354,4 @@ def test_a_late_decision_leaves_the_proposal_its_whole_time():
 
 
 def test_the_recogniser_has_always_answered_before_an_activation_is_given_up():
-    assert GIVE_UP_S + BUDGET_MOST_S + GRACE_S + 0.1 < DECISION_LIMIT_S
+    assert GIVE_UP_S + BUDGET_MOST_S + 0.1 < DECISION_LIMIT_S
