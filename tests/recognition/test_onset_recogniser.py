@@ -348,6 +348,6 @@ def test_the_kind_of_a_model_chooses_its_recogniser():
         replace(onset, labels=("X+", "X-")),
         replace(onset, labels=(*onset.labels[:-1], NO_GESTURE)),
     ):
-        with pytest.raises(ValueError, match="onset recogniser|must not be called"):
+        with pytest.raises(ValueError, match=r"onset recogniser|must not be called"):
             recogniser_for(wrong)
     assert set(onset.labels) < set(LABELS)
