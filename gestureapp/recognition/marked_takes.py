@@ -5,7 +5,7 @@ Such a file has ``target_start`` instead of ``activation``. What differs from ou
 * ``target_start`` is taken for the activation: as if the left arm had started exactly then.
 * ``R_device_to_paper`` (3, 3), when present, turns the samples into our axes: ``samples @ R.T``.
 * A driver may have removed gravity already. When the quiet part before the gestures reads about
-  0 g, 1 g is added on Z, as a level sensor would read it.
+  0 g, 1 g is added on Z, as a level sensor would read it: also to takes that know their activation.
 """
 
 import numpy as np
@@ -38,10 +38,21 @@ def put_right(
             raise ValueError("'R_device_to_paper' must be a rotation of shape (3, 3)")
         samples = samples @ turn.T
         remarks.append("the axes are turned by 'R_device_to_paper'")
-    if _has_no_gravity(samples, offsets, starts):
-        samples = samples + np.array([0.0, 0.0, 1.0])
-        remarks.append("gravity had been removed: 1 g is added on Z")
-    return samples, tuple(remarks)
+    samples, of_gravity = add_gravity(samples, offsets, starts)
+    return samples, (*remarks, *of_gravity)
+
+
+def add_gravity(samples: F64, offsets: I64, starts: I64) -> tuple[F64, tuple[str, ...]]:
+    """Samples as a level sensor would have read them, and what was done, in words.
+
+    Args:
+        samples: Shape (n, 3), in g.
+        offsets: Shape (m + 1,), where each take begins.
+        starts: Shape (m,), before which the hand is quiet in each take.
+    """
+    if not _has_no_gravity(samples, offsets, starts):
+        return samples, ()
+    return samples + np.array([0.0, 0.0, 1.0]), ("gravity had been removed: 1 g is added on Z",)
 
 
 def _has_no_gravity(samples: F64, offsets: I64, starts: I64) -> bool:

@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from gestureapp.errors import RecordingInvalid
 from gestureapp.recognition.files import write_atomically
-from gestureapp.recognition.marked_takes import put_right
+from gestureapp.recognition.marked_takes import add_gravity, put_right
 
 F64 = NDArray[np.float64]
 I64 = NDArray[np.int64]
@@ -155,7 +155,7 @@ def _take_set(arrays: Mapping[str, NDArray[np.generic]], path: Path) -> TakeSet:
         source=path,
     )
     if not is_marked:
-        return takes
+        return _with_gravity(takes)
     turn = arrays.get("R_device_to_paper")
     samples, remarks = put_right(
         takes.samples,
@@ -164,6 +164,11 @@ def _take_set(arrays: Mapping[str, NDArray[np.generic]], path: Path) -> TakeSet:
         None if turn is None else _numbers("R_device_to_paper", turn),
     )
     return replace(takes, samples=samples, remarks=remarks)
+
+
+def _with_gravity(takes: TakeSet) -> TakeSet:
+    samples, remarks = add_gravity(takes.samples, takes.offsets, takes.activation)
+    return replace(takes, samples=samples, remarks=remarks) if remarks else takes
 
 
 def _chosen(texts: tuple[str, ...], indices: Sequence[int]) -> tuple[str, ...]:

@@ -258,11 +258,22 @@ def test_marked_takes_with_gravity_are_left_as_they_are(tmp_path):
     assert len(takes.remarks) == 1
 
 
-def test_with_an_activation_nothing_is_put_right(tmp_path):
-    takes = load_takes(marked(tmp_path / "t.npz", activation=np.array([1, 1])))
+@pytest.mark.parametrize("activation", [0, 1])
+def test_with_an_activation_only_gravity_is_given_back(tmp_path, activation):
+    takes = load_takes(marked(tmp_path / "t.npz", activation=np.array([activation] * 2)))
 
-    assert takes.activation.tolist() == [1, 1]
-    assert (takes.remarks, float(np.abs(takes.samples[0]).sum())) == ((), 0.0)
+    assert takes.activation.tolist() == [activation] * 2
+    assert takes.remarks == ("gravity had been removed: 1 g is added on Z",)
+    assert np.allclose(takes.accel_g(0)[3], [0.0, 0.8, 1.0])
+
+
+def test_with_an_activation_and_gravity_nothing_is_put_right(tmp_path):
+    path = write(tmp_path / "t.npz", samples=np.tile([0.0, 0.0, 1.0], (10, 1)))
+
+    takes = load_takes(path)
+
+    assert takes.remarks == ()
+    assert np.allclose(takes.samples, [0.0, 0.0, 1.0])
 
 
 @pytest.mark.parametrize(
