@@ -55,15 +55,15 @@ I64 = NDArray[np.int64]
 Mask = NDArray[np.bool_]
 
 NEW = Steps(count=400, rate=2e-3, batch=128, decay=1e-3)
-KEPT = Steps(count=300, rate=1e-3, batch=128, decay=1e-3)
+KEPT = Steps(count=200, rate=1e-3, batch=128, decay=1e-3)
 KEPT_FEW = Steps(count=100, rate=1e-3, batch=128, decay=1e-3)
 """With fewer than ``MIN_TAKES`` of a gesture: the base is moved only a little."""
 MEMBERS_NEW, MEMBERS_KEPT = 4, 2
 """All with new outputs; or so many of each sort. With people left out, five new ones did as well at
 recognising as three, and gave a third fewer wrong answers."""
 VARIATION = Variation(tilt_deg=4.0, gain=0.04, offset_g=0.02, vigour=0.10)
-VARIED = 8
-"""Varied copies of each view: about as many as are shown."""
+VARIED = 6
+"""Varied copies of each view: about as many views are then there as are shown."""
 VIEWS_OF_GESTURE = 120
 """Views of each copy of a gesture's takes, together; at least 4 of each take."""
 PER_NEGATIVE = 4
