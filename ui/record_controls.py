@@ -68,7 +68,7 @@ class RecordControls(QFrame):
             self._pause.setText("Go on" if phase is Phase.PAUSED else "Pause")
         is_idle, is_open = phase is Phase.IDLE, phase is not Phase.CLOSED
         is_paused = phase is Phase.PAUSED
-        self._start.setEnabled(is_idle and not snapshot.trouble)
+        self._start.setEnabled(is_idle)
         self._pause.setEnabled(is_paused or is_running(phase))
         self._end.setEnabled(is_open and not is_idle)
         self._redo_last.setEnabled(bool(snapshot.batch))
