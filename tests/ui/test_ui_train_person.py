@@ -169,6 +169,17 @@ def test_without_the_left_sensor_it_goes_on_by_the_beat(room):
     assert room.button("sensorsNext").isEnabled()
 
 
+def test_of_a_silent_left_arm_no_posture_is_told(room):
+    height = label(room, "leftPosture").height()
+    room.bench.lose(Side.LEFT)
+    room.run(1.0)
+    assert room.text("leftPosture") == ""
+    assert label(room, "leftPosture").height() == height
+    room.bench.restore(Side.LEFT)
+    room.run(1.0)
+    assert room.text("leftPosture").startswith("Left arm now:")
+
+
 def label(room: Room, name: str) -> QLabel:
     return room.window.findChild(QLabel, name)
 
