@@ -5,6 +5,7 @@ from PySide6.QtWidgets import QHBoxLayout, QVBoxLayout, QWidget
 
 from gestureapp.cell.controls import CellControls
 from gestureapp.cell.snapshot import Snapshot
+from gestureapp.gestures import is_held
 from gestureapp.guided.controls import GuidedControls
 from gestureapp.guided.values import GuidedSnapshot, Phase
 from ui.arm_plot import ArmPlot
@@ -52,7 +53,12 @@ class RecordStep(QWidget):
         self._strip.show_batch(guided.batch)
         self._controls.show_snapshot(guided)
         is_moving = guided.phase is Phase.TAKING
-        self._level.show_tilt(guided.tilt_deg, guided.is_level, is_moving=is_moving)
+        self._level.show_tilt(
+            guided.tilt_deg,
+            guided.is_level,
+            is_moving=is_moving,
+            is_level_wanted=not (guided.label and is_held(guided.label)),
+        )
         taken = (guided.activation_s - _BEFORE_S, guided.activation_s + _AFTER_S)
         self._plot.mark_window(taken, cell.t_s)
         self._plot.show_samples(self._cell.right, cell.t_s, cell.right.is_alive)

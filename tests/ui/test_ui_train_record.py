@@ -1,8 +1,10 @@
 """Recording as a person sees it: prompt, count-in, beat, takes with verdicts, and the buttons."""
 
+from dataclasses import replace
+
 import pytest
 from PySide6.QtCore import Qt
-from PySide6.QtGui import QAction
+from PySide6.QtGui import QAction, QColor
 from PySide6.QtWidgets import QDoubleSpinBox, QLabel, QSpinBox
 
 from gestureapp.gestures import GESTURES
@@ -11,7 +13,9 @@ from gestureapp.sensing.values import Side
 from tests.ui.sitting import Room
 from ui.gesture_list import GestureRow
 from ui.prompt_view import PromptView
+from ui.record_step import RecordStep
 from ui.take_strip import TakeStrip
+from ui.theme import colours_of
 
 CONTROL = Qt.KeyboardModifier.ControlModifier
 SHIFT = Qt.KeyboardModifier.ShiftModifier
@@ -235,6 +239,22 @@ def test_the_level_of_the_hand_is_told_except_while_it_moves(room):
     room.press("startBatch")
     room.run_until(lambda picture: picture.phase is Phase.TAKING)
     assert level.text == "Right hand: moving"
+
+
+@pytest.mark.parametrize("gesture", GESTURES, ids=lambda gesture: gesture.label)
+def test_a_level_hand_is_demanded_only_where_the_gesture_begins_with_one(room, gesture):
+    room.press(f"record_{gesture.label}")
+    tilted = replace(room.bench.picture, tilt_deg=27.0, is_level=False)
+    step = room.window.findChild(RecordStep)
+    step.show_snapshot(tilted, room.cell.shown)
+    is_posture = gesture.label.startswith(("RX", "RY"))
+    words = "27\u00b0 from level" if is_posture else "27\u00b0 off, hold it level"
+    level = room.widget("recordLevel")
+    assert level.text == f"Right hand: {words}"
+    attention = QColor(colours_of(level.palette()).attention).rgb()
+    image = level.grab().toImage()
+    points = ((x, y) for x in range(image.width()) for y in range(image.height()))
+    assert any(image.pixel(x, y) == attention for x, y in points) is not is_posture
 
 
 def test_when_all_takes_of_a_gesture_are_there_the_next_one_is_suggested(room):
