@@ -2,7 +2,7 @@
 
 from collections.abc import Callable
 
-from PySide6.QtCore import Qt
+from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import (
     QAbstractSpinBox,
     QApplication,
@@ -32,7 +32,13 @@ WANTED_RANGE = (5, 200)
 
 
 class RecordControls(QFrame):
-    """Passes presses on; shows what can be done now. GUI thread only."""
+    """Passes presses on; shows what can be done now. GUI thread only.
+
+    Signals:
+        pace_chosen: The person has said what begins a take.
+    """
+
+    pace_chosen = Signal()
 
     def __init__(
         self, guided: GuidedControls, strip: TakeStrip, parent: QWidget | None = None
@@ -133,6 +139,7 @@ class RecordControls(QFrame):
         self._redo.clicked.connect(lambda: guided.redo())
         for pace, button in self._paces.items():
             button.clicked.connect(self._set_pace(pace))
+            button.clicked.connect(lambda: self.pace_chosen.emit())
         self._beat.editingFinished.connect(lambda: guided.set_pace(Pace.RHYTHM, self._beat.value()))
         self._wanted.editingFinished.connect(lambda: guided.set_wanted(self._wanted.value()))
 

@@ -1,5 +1,6 @@
 """Record: which gesture, what to do, the live hand, the batch's takes, and its buttons."""
 
+from PySide6.QtCore import Signal
 from PySide6.QtGui import QKeySequence, QShortcut
 from PySide6.QtWidgets import QHBoxLayout, QVBoxLayout, QWidget
 
@@ -23,7 +24,13 @@ _SIDE_PX = 132
 
 
 class RecordStep(QWidget):
-    """Everything a batch needs on one screen. GUI thread only."""
+    """Everything a batch needs on one screen. GUI thread only.
+
+    Signals:
+        pace_chosen: The person has said what begins a take.
+    """
+
+    pace_chosen = Signal()
 
     def __init__(
         self, cell: CellControls, guided: GuidedControls, parent: QWidget | None = None
@@ -66,6 +73,7 @@ class RecordStep(QWidget):
     def _connect(self) -> None:
         self._list.chosen.connect(self._guided.choose)
         controls = self._controls
+        controls.pace_chosen.connect(self.pace_chosen)
         # Only while this step is in sight; none of them is a key of the virtual operator.
         for key, act in (
             ("Return", controls.begin),

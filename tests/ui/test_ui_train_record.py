@@ -214,10 +214,62 @@ def test_without_a_left_sensor_takes_go_by_the_beat(qtbot, cell, operator, tmp_p
     room.bench.lose(Side.LEFT)
     room.run(1.0)
     room.record()
+    room.run(0.05)
     assert room.bench.picture.pace is Pace.RHYTHM
     assert room.button("paceRhythm").isChecked()
     room.window.close()
     room.bench.desk.close()
+
+
+def test_the_pace_follows_the_left_sensor_whenever_the_step_is_entered(room):
+    room.press("stepSensors")
+    room.run(2.5)
+    room.press("sensorsNext")
+    room.run(0.05)
+    assert room.button("paceHandsFree").isChecked()
+    room.press("stepSensors")
+    room.bench.lose(Side.LEFT)
+    room.run(1.0)
+    assert "by the beat" in room.text("sensorsTold")
+    room.press("sensorsNext")
+    room.run(0.05)
+    assert room.button("paceRhythm").isChecked()
+    room.press("navOperate")
+    room.bench.restore(Side.LEFT)
+    room.run(2.5)
+    room.press("navTrain")
+    room.run(0.05)
+    assert room.button("paceHandsFree").isChecked()
+
+
+def test_a_pace_chosen_by_hand_stays(room):
+    room.press("paceRhythm")
+    room.press("stepSensors")
+    room.press("stepRecord")
+    room.run(0.05)
+    assert room.bench.picture.pace is Pace.RHYTHM
+    room.press("paceHandsFree")
+    room.press("stepSensors")
+    room.bench.lose(Side.LEFT)
+    room.run(1.0)
+    room.press("stepRecord")
+    room.run(0.05)
+    assert room.bench.picture.pace is Pace.HANDS_FREE
+
+
+def test_the_pace_of_a_batch_on_hold_stays(room):
+    room.run(0.05)
+    assert room.bench.picture.pace is Pace.RHYTHM  # the left sensor's rate was not known yet
+    room.press("startBatch")
+    room.run_until(lambda picture: picture.phase is Phase.WAITING)
+    for phase, pace in ((Phase.PAUSED, Pace.RHYTHM), (Phase.IDLE, Pace.HANDS_FREE)):
+        room.press("stepSensors")
+        room.run(1.0)
+        room.press("stepRecord")
+        room.run(0.05)
+        assert (room.bench.picture.phase, room.bench.picture.pace) == (phase, pace)
+        if phase is Phase.PAUSED:
+            room.press("endBatch")
 
 
 def test_beat_and_number_of_takes_are_set_by_hand(room):
