@@ -96,10 +96,14 @@ class TrainPage(QWidget):
         super().showEvent(event)
         self._is_entered = True
 
+    def pause(self) -> None:
+        """Put a batch under way on hold; nothing when none is."""
+        if is_running(self._guided.snapshot().phase):
+            self._guided.pause()
+
     def leave(self) -> None:
         """The page or its step goes out of sight: nothing is to be recorded unseen."""
-        if is_running(self.newest.phase):
-            self._guided.pause()
+        self.pause()
         if self.newest.trying.is_on:
             self._guided.stop_trying()
 

@@ -5,8 +5,10 @@ from dataclasses import replace
 import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QAction, QColor
+from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QDoubleSpinBox, QLabel, QSpinBox
 
+from gestureapp.cell.snapshot import CellState
 from gestureapp.gestures import GESTURES
 from gestureapp.guided.values import Pace, Phase
 from gestureapp.sensing.values import Side
@@ -206,6 +208,38 @@ def test_a_lost_sensor_is_told_across_the_window_until_it_is_back(room):
     room.bench.restore(Side.RIGHT)
     room.run_until(lambda picture: picture.phase is Phase.COUNT_IN)
     assert not bar.isVisible()
+
+
+@pytest.mark.parametrize("by_key", [False, True])
+def test_stop_goes_out_first_then_holds_the_batch_and_is_told(room, by_key):
+    order: list[str] = []
+    stop, pause = room.cell.stop, room.controls.pause
+    room.cell.stop = lambda *why: (order.append("stop"), stop(*why))
+    room.controls.pause = lambda: (order.append("pause"), pause())
+    room.press("startBatch")
+    room.run_until(lambda picture: picture.phase is Phase.WAITING)
+    if by_key:
+        room.key(Qt.Key.Key_Escape)
+    else:
+        QTest.mousePress(room.button("stopButton"), Qt.MouseButton.LeftButton)
+        room.run(0.01)
+    assert order == ["stop", "pause"]
+    assert room.bench.picture.phase is Phase.PAUSED
+    bar = room.window.findChild(QLabel, "stoppedNotice")
+    assert not bar.isVisible()
+    words = "STOP was pressed. The robot stands. Clear what stands against arming, then hold Arm."
+    room.cell.shown = replace(room.cell.shown, state=CellState.STOPPED, sentence=words)
+    room.look()
+    assert bar.isVisible()
+    assert bar.text() == words
+    room.press("navOperate")
+    assert not bar.isVisible()
+
+
+def test_stop_goes_out_where_no_batch_is_under_way(room):
+    room.key(Qt.Key.Key_Escape)
+    assert "stop" in room.cell.calls
+    assert room.bench.picture.phase is Phase.IDLE
 
 
 def test_without_a_left_sensor_takes_go_by_the_beat(qtbot, cell, operator, tmp_path):
