@@ -140,8 +140,13 @@ class RecordControls(QFrame):
         for pace, button in self._paces.items():
             button.clicked.connect(self._set_pace(pace))
             button.clicked.connect(lambda: self.pace_chosen.emit())
-        self._beat.editingFinished.connect(lambda: guided.set_pace(Pace.RHYTHM, self._beat.value()))
+        self._beat.editingFinished.connect(self._take_beat)
         self._wanted.editingFinished.connect(lambda: guided.set_wanted(self._wanted.value()))
+
+    def _take_beat(self) -> None:
+        """The field is left; also when it is shut because hands-free was chosen."""
+        if self._paces[Pace.RHYTHM].isChecked():
+            self._guided.set_pace(Pace.RHYTHM, self._beat.value())
 
     def _set_up_numbers(self) -> None:
         self._beat.setObjectName("beatTime")

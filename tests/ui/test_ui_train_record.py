@@ -308,6 +308,7 @@ def test_the_pace_of_a_batch_on_hold_stays(room):
 
 def test_beat_and_number_of_takes_are_set_by_hand(room):
     room.press("paceRhythm")
+    room.run(0.05)
     beat = room.window.findChild(QDoubleSpinBox, "beatTime")
     wanted = room.window.findChild(QSpinBox, "takesWanted")
     beat.setValue(2.0)
@@ -317,6 +318,12 @@ def test_beat_and_number_of_takes_are_set_by_hand(room):
     room.run(0.05)
     assert room.bench.picture.beat_s == 2.0
     assert room.text("takeLabel") == "take 1 of 12"
+
+    room.press("paceHandsFree")
+    room.run(0.05)
+    beat.editingFinished.emit()  # the field loses the focus as it is shut
+    room.run(0.05)
+    assert room.bench.picture.pace is Pace.HANDS_FREE
 
 
 def test_the_level_of_the_hand_is_told_except_while_it_moves(room):
