@@ -109,7 +109,7 @@ def running_cell(
         operator = emulators.operator if emulators is not None else None
         if (own := find_own_model(folder, _first_person(settings, folder))) is not None:
             cell.use_model(*own)
-        guided = Guided(cell, folder)
+        guided = Guided(cell, folder, on_ended=lambda text: cell.use_model(None, text))
         opened.callback(guided.shutdown)
         guided.start_thread()
         trainer = Trainer(guided, folder, cell.use_model)

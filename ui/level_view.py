@@ -29,22 +29,31 @@ class LevelView(QWidget):
         super().__init__(parent)
         self.setObjectName(name)
         self.text = ""
-        self._tilt_deg, self._is_level = math.nan, False
+        self._tilt_deg, self._is_wrong = math.nan, False
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
         self.show_tilt(math.nan, False)
 
-    def show_tilt(self, tilt_deg: float, is_level: bool, *, is_moving: bool = False) -> None:
+    def show_tilt(
+        self,
+        tilt_deg: float,
+        is_level: bool,
+        *,
+        is_moving: bool = False,
+        is_level_wanted: bool = True,
+    ) -> None:
         """Show another tilt.
 
         Args:
             tilt_deg: From level; NaN without samples.
             is_level: That is little enough.
             is_moving: A gesture is being made: its acceleration hides the tilt.
+            is_level_wanted: The hand has to be level: a tilt is wrong, not only shown.
         """
-        self._is_level = is_level
         if is_moving:
             tilt_deg = math.nan
-        text = f"Right hand: {'moving' if is_moving else level_text(tilt_deg, is_level)}"
+        self._is_wrong = is_level_wanted and not is_level and not math.isnan(tilt_deg)
+        words = level_text(tilt_deg, is_level, is_wanted=is_level_wanted)
+        text = f"Right hand: {'moving' if is_moving else words}"
         if text == self.text and abs(tilt_deg - self._tilt_deg) < _STEP_DEG:
             return
         self._tilt_deg = tilt_deg
@@ -69,7 +78,6 @@ class LevelView(QWidget):
         is_stacked = self.height() >= _STACKED_PX
         top = 2 if is_stacked else (self.height() - 18) / 2
         tube = QRectF(1, top, _TUBE_PX, 18)
-        wrong = not self._is_level and not math.isnan(self._tilt_deg)
         painter.setPen(QPen(QColor(colours.line), 1))
         painter.setBrush(QColor(colours.base))
         painter.drawRoundedRect(tube, 9, 9)
@@ -81,13 +89,13 @@ class LevelView(QWidget):
             share = min(1.0, self._tilt_deg / _FULL_DEG)
             x = centre.x() + share * (tube.width() / 2 - 10)
             painter.setPen(Qt.PenStyle.NoPen)
-            painter.setBrush(QColor(colours.attention if wrong else colours.muted))
+            painter.setBrush(QColor(colours.attention if self._is_wrong else colours.muted))
             painter.drawEllipse(QPointF(x, centre.y()), 8, 7)
         font = QFont(self.font())
         font.setPixelSize(TEXT_PX + 2)
-        font.setBold(wrong)
+        font.setBold(self._is_wrong)
         painter.setFont(font)
-        painter.setPen(QColor(colours.attention if wrong else colours.text))
+        painter.setPen(QColor(colours.attention if self._is_wrong else colours.text))
         if is_stacked:
             room = QRectF(0, tube.bottom() + 4, self.width(), self.height() - tube.bottom() - 4)
             flags = Qt.AlignmentFlag.AlignTop | Qt.TextFlag.TextWordWrap

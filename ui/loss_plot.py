@@ -22,7 +22,7 @@ class LossPlot(QFrame):
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self.setObjectName("lossPlot")
-        self._shown: tuple[int, object] = (0, None)
+        self._shown: tuple[int, object] | None = None
         heading = plain("lossTitle", TEXT_PX, is_wrapped=False)
         heading.setText("Loss while training, by passes over the takes (lower is better)")
         sized(heading, TEXT_PX, is_bold=True)
@@ -55,6 +55,9 @@ class LossPlot(QFrame):
         kept = [(n, loss) for n, loss in newest_first[::-1] if loss > 0 and math.isfinite(loss)]
         passes, values = [n for n, _ in kept], [loss for _, loss in kept]
         self._curve.setData(passes, values)
+        for side in ("left", "bottom"):
+            # Without a point the values would be those of no range at all.
+            self._plot.getPlotItem().getAxis(side).setStyle(showValues=bool(kept))
         if kept:
             low = math.floor(math.log10(min(values)))
             high = max(low + 1, math.ceil(math.log10(max(values))))

@@ -9,7 +9,7 @@ from PySide6.QtWidgets import QApplication, QHBoxLayout, QMainWindow, QVBoxLayou
 
 from gestureapp.cell.controls import CellControls
 from gestureapp.cell.last_time import LastTime
-from gestureapp.cell.snapshot import Snapshot
+from gestureapp.cell.snapshot import CellState, Snapshot
 from gestureapp.clock import Clock, monotonic
 from gestureapp.guided.controls import GuidedControls, TrainerControls
 from ui.alarm_bars import AlarmBars
@@ -70,6 +70,7 @@ class MainWindow(QMainWindow):
         if guided is not None and trainer is not None:
             self._train = TrainPage(cell, guided, trainer)
         self._notice = NoticeBar("trainNotice")
+        self._stopped = NoticeBar("stoppedNotice")
         self._pages = PageStack("pages")
         self._rail = NavRail((Place.OPERATE,) if self._train is None else tuple(Place))
         self._slab = StopSlab()
@@ -116,6 +117,7 @@ class MainWindow(QMainWindow):
         if not is_training:
             self._train.leave()
             self._notice.show_text("")
+            self._stopped.show_text("")
         self._cell.hold_for_training(is_training)
         self._rail.show_place(place)
         page = self._train if is_training else self._operate
@@ -124,8 +126,10 @@ class MainWindow(QMainWindow):
         self.poll()
 
     def stop(self) -> None:
-        """STOP was pressed, by mouse or key."""
+        """STOP was pressed, by mouse or key. A batch is put on hold once the stop is out."""
         self._cell.stop()
+        if self._train is not None:
+            self._train.pause()
 
     def tell_last_time(self, last_time: LastTime) -> None:
         """Show what the guardian did when no window could, until it is put away."""
@@ -156,6 +160,8 @@ class MainWindow(QMainWindow):
         if self._train is not None and self._place is Place.TRAIN:
             self._train.show_snapshot(snapshot)
             self._notice.show_text(self._train.notice)
+            is_stopped = snapshot.state is CellState.STOPPED
+            self._stopped.show_text(snapshot.sentence if is_stopped else "")
         else:
             self._operate.show_snapshot(snapshot)
 
@@ -195,7 +201,7 @@ class MainWindow(QMainWindow):
         column_of_all = QVBoxLayout(whole)
         column_of_all.setContentsMargins(0, 0, 0, 0)
         column_of_all.addWidget(self._strip)
-        column_of_all.addWidget(NoticeRow(self._notice, self._last_time, self._bars))
+        column_of_all.addWidget(NoticeRow(self._stopped, self._notice, self._last_time, self._bars))
         column_of_all.addLayout(body, 1)
         for layout in (middle, work, body, column_of_all):
             layout.setSpacing(6)

@@ -1,5 +1,7 @@
 """Person: whose takes these are; continue as somebody, or begin with a new name."""
 
+import html
+
 from PySide6.QtCore import QSize, Qt, Signal
 from PySide6.QtGui import QShowEvent
 from PySide6.QtWidgets import (
@@ -17,7 +19,7 @@ from PySide6.QtWidgets import (
 from gestureapp.errors import GestureAppError
 from gestureapp.guided.controls import GuidedControls
 from gestureapp.guided.values import GuidedSnapshot
-from ui.labels import plain
+from ui.labels import ElidedLabel, plain
 from ui.operate_page import framed
 from ui.theme import LARGE_PX, TEXT_PX, sized
 from ui.train_words import continue_text
@@ -26,6 +28,10 @@ NOBODY = "Choose who wears the sensors. Each person has takes and a model of the
 _NAME_PX = 18
 _ROW_PX = 36
 _LONGEST_NAME = 60
+_WIDEST_PX = 420
+"""Of the button with a name."""
+_BESIDE_PX = 20
+"""Between a button's words and its edge."""
 
 
 class PersonStep(QWidget):
@@ -63,7 +69,9 @@ class PersonStep(QWidget):
         self._open.setObjectName("openPerson")
         self._open.setAccessibleName("Begin with this name")
         self._trouble = plain("personTrouble", LARGE_PX)
-        self._chosen = plain("personChosen", 30)
+        self._chosen = ElidedLabel()
+        self._chosen.setObjectName("personChosen")
+        self._chosen.setTextFormat(Qt.TextFormat.PlainText)
         self._far = plain("personProgress", LARGE_PX + 2)
         self._next = QPushButton("Continue")
         self._next.setObjectName("continuePerson")
@@ -83,6 +91,7 @@ class PersonStep(QWidget):
         for name in self._people:
             item = QListWidgetItem(name)
             item.setSizeHint(QSize(0, _ROW_PX))
+            item.setToolTip(_as_tip(name))
             self._list.addItem(item)
         for widget in (self._who, self._list):
             widget.setVisible(bool(self._people))
@@ -101,13 +110,22 @@ class PersonStep(QWidget):
         who = snapshot.person or self._last
         self._next.setEnabled(bool(who))
         _say(self._chosen, who or "Nobody is chosen yet")
-        _say(self._next, f"Continue as {who}" if who else "Continue")
+        _say(self._next, self._continue_as(who) if who else "Continue")
+        for widget in (self._chosen, self._next):
+            widget.setToolTip(_as_tip(who))
         if snapshot.person:
             _say(self._far, continue_text(snapshot))
         elif who:
             _say(self._far, "Recorded here last. Continue, or choose somebody else.")
         else:
             _say(self._far, NOBODY)
+
+    def _continue_as(self, who: str) -> str:
+        """What stands on the button: a long name is elided, an ``&`` marks no shortcut."""
+        room = _WIDEST_PX - 2 * _BESIDE_PX
+        metrics = self._next.fontMetrics()
+        text = metrics.elidedText(f"Continue as {who}", Qt.TextElideMode.ElideRight, room)
+        return text.replace("&", "&&")
 
     def _go_on(self) -> None:
         if self._choose(self._person or self._last):
@@ -155,6 +173,7 @@ class PersonStep(QWidget):
             button.setAutoDefault(False)
             button.setMinimumSize(120, 44)
             sized(button, LARGE_PX, is_bold=True)
+        self._next.setMaximumWidth(_WIDEST_PX)
         self._trouble.hide()
         new = _titled("newPersonTitle", "Somebody new")
         entry = QHBoxLayout()
@@ -192,6 +211,11 @@ def _titled(name: str, text: str) -> QWidget:
     title.setText(text)
     sized(title, TEXT_PX, is_bold=True)
     return title
+
+
+def _as_tip(name: str) -> str:
+    """A name as tool tip: one that looks like markup would be read as such."""
+    return f"<span>{html.escape(name)}</span>" if "<" in name else name
 
 
 def _say(widget: QLabel | QPushButton, text: str) -> None:

@@ -2,7 +2,7 @@
 
 from collections.abc import Callable
 
-from PySide6.QtCore import Qt
+from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import (
     QAbstractSpinBox,
     QApplication,
@@ -32,7 +32,13 @@ WANTED_RANGE = (5, 200)
 
 
 class RecordControls(QFrame):
-    """Passes presses on; shows what can be done now. GUI thread only."""
+    """Passes presses on; shows what can be done now. GUI thread only.
+
+    Signals:
+        pace_chosen: The person has said what begins a take.
+    """
+
+    pace_chosen = Signal()
 
     def __init__(
         self, guided: GuidedControls, strip: TakeStrip, parent: QWidget | None = None
@@ -68,7 +74,7 @@ class RecordControls(QFrame):
             self._pause.setText("Go on" if phase is Phase.PAUSED else "Pause")
         is_idle, is_open = phase is Phase.IDLE, phase is not Phase.CLOSED
         is_paused = phase is Phase.PAUSED
-        self._start.setEnabled(is_idle and not snapshot.trouble)
+        self._start.setEnabled(is_idle)
         self._pause.setEnabled(is_paused or is_running(phase))
         self._end.setEnabled(is_open and not is_idle)
         self._redo_last.setEnabled(bool(snapshot.batch))
@@ -133,8 +139,14 @@ class RecordControls(QFrame):
         self._redo.clicked.connect(lambda: guided.redo())
         for pace, button in self._paces.items():
             button.clicked.connect(self._set_pace(pace))
-        self._beat.editingFinished.connect(lambda: guided.set_pace(Pace.RHYTHM, self._beat.value()))
+            button.clicked.connect(lambda: self.pace_chosen.emit())
+        self._beat.editingFinished.connect(self._take_beat)
         self._wanted.editingFinished.connect(lambda: guided.set_wanted(self._wanted.value()))
+
+    def _take_beat(self) -> None:
+        """The field is left; also when it is shut because hands-free was chosen."""
+        if self._paces[Pace.RHYTHM].isChecked():
+            self._guided.set_pace(Pace.RHYTHM, self._beat.value())
 
     def _set_up_numbers(self) -> None:
         self._beat.setObjectName("beatTime")

@@ -1,10 +1,12 @@
 """Record: which gesture, what to do, the live hand, the batch's takes, and its buttons."""
 
+from PySide6.QtCore import Signal
 from PySide6.QtGui import QKeySequence, QShortcut
 from PySide6.QtWidgets import QHBoxLayout, QVBoxLayout, QWidget
 
 from gestureapp.cell.controls import CellControls
 from gestureapp.cell.snapshot import Snapshot
+from gestureapp.gestures import is_held
 from gestureapp.guided.controls import GuidedControls
 from gestureapp.guided.values import GuidedSnapshot, Phase
 from ui.arm_plot import ArmPlot
@@ -22,7 +24,13 @@ _SIDE_PX = 132
 
 
 class RecordStep(QWidget):
-    """Everything a batch needs on one screen. GUI thread only."""
+    """Everything a batch needs on one screen. GUI thread only.
+
+    Signals:
+        pace_chosen: The person has said what begins a take.
+    """
+
+    pace_chosen = Signal()
 
     def __init__(
         self, cell: CellControls, guided: GuidedControls, parent: QWidget | None = None
@@ -52,7 +60,12 @@ class RecordStep(QWidget):
         self._strip.show_batch(guided.batch)
         self._controls.show_snapshot(guided)
         is_moving = guided.phase is Phase.TAKING
-        self._level.show_tilt(guided.tilt_deg, guided.is_level, is_moving=is_moving)
+        self._level.show_tilt(
+            guided.tilt_deg,
+            guided.is_level,
+            is_moving=is_moving,
+            is_level_wanted=not (guided.label and is_held(guided.label)),
+        )
         taken = (guided.activation_s - _BEFORE_S, guided.activation_s + _AFTER_S)
         self._plot.mark_window(taken, cell.t_s)
         self._plot.show_samples(self._cell.right, cell.t_s, cell.right.is_alive)
@@ -60,6 +73,7 @@ class RecordStep(QWidget):
     def _connect(self) -> None:
         self._list.chosen.connect(self._guided.choose)
         controls = self._controls
+        controls.pace_chosen.connect(self.pace_chosen)
         # Only while this step is in sight; none of them is a key of the virtual operator.
         for key, act in (
             ("Return", controls.begin),

@@ -76,6 +76,7 @@ class SensorsStep(QWidget):
         self._right = ArmCard(Side.RIGHT)
         self._level = LevelView("sensorLevel")
         self._posture = plain("leftPosture", LARGE_PX, is_wrapped=False)
+        self._posture.setMinimumHeight(self._posture.sizeHint().height())
         self._left.add(self._posture)
         self._right.add(self._level)
         self._told = plain("sensorsTold", LARGE_PX)
@@ -108,7 +109,8 @@ class SensorsStep(QWidget):
             self._was_stop_seen = False
         elif cell.posture is ArmPosture.STOP:
             self._was_stop_seen = True
-        _say(self._posture, posture_text(cell.posture, self._was_stop_seen))
+        posture = posture_text(cell.posture, self._was_stop_seen) if cell.left.is_alive else ""
+        _say(self._posture, posture)
         self._level.show_tilt(guided.tilt_deg, guided.is_level)
         told, can_go_on = self._judge(guided, cell)
         _say(self._told, told)

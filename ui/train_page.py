@@ -3,6 +3,7 @@
 from collections.abc import Callable
 from dataclasses import dataclass
 
+from PySide6.QtGui import QShowEvent
 from PySide6.QtWidgets import QVBoxLayout, QWidget
 
 from gestureapp.cell.controls import CellControls
@@ -51,6 +52,10 @@ class TrainPage(QWidget):
         self._cell, self._guided, self._trainer = cell, guided, trainer
         self.newest = guided.snapshot()
         self._person = ""
+        self._is_pace_open = True
+        """The person has not said what begins a take."""
+        self._is_entered = False
+        """The step in sight has come into sight since the last moment shown."""
         self._bar = StepBar()
         self._built: dict[Step, _Built] = {}
         self._stack = PageStack("trainSteps")
@@ -70,7 +75,10 @@ class TrainPage(QWidget):
             self.go_to(Step.PERSON)
         if guided.person != self._person:
             self._person = guided.person
+            self._is_pace_open = True
+        if self._is_entered and self.step is Step.RECORD:
             self._choose_pace(guided, cell)
+        self._is_entered = False
         self.notice = _notice_of(guided)
         self._in_sight().show(guided, cell)
 
@@ -78,15 +86,24 @@ class TrainPage(QWidget):
         """Show another step; a batch or a test under way is put on hold."""
         if step is not self.step:
             self.leave()
-        self.step = step
+        self.step, self._is_entered = step, True
         self._bar.show_step(step)
         self._in_sight()
         self.setFocus()  # else Space would press whatever Qt hands the focus to
 
+    def showEvent(self, event: QShowEvent) -> None:
+        """The page comes into sight, and its step with it."""
+        super().showEvent(event)
+        self._is_entered = True
+
+    def pause(self) -> None:
+        """Put a batch under way on hold; nothing when none is."""
+        if is_running(self._guided.snapshot().phase):
+            self._guided.pause()
+
     def leave(self) -> None:
         """The page or its step goes out of sight: nothing is to be recorded unseen."""
-        if is_running(self.newest.phase):
-            self._guided.pause()
+        self.pause()
         if self.newest.trying.is_on:
             self._guided.stop_trying()
 
@@ -111,6 +128,7 @@ class TrainPage(QWidget):
                 return _Built(sensors, sensors.show_snapshot)
             case Step.RECORD:
                 record = RecordStep(self._cell, self._guided)
+                record.pace_chosen.connect(self._keep_pace)
                 return _Built(record, record.show_snapshot)
             case Step.CHECK:
                 check = CheckStep(self._guided)
@@ -124,8 +142,12 @@ class TrainPage(QWidget):
 
     def _choose_pace(self, guided: GuidedSnapshot, cell: Snapshot) -> None:
         """By the beat where there is no left sensor; else as in operation."""
-        if guided.person and guided.phase is Phase.IDLE and not cell.left.is_ok:
-            self._guided.set_pace(Pace.RHYTHM, guided.beat_s)
+        pace = Pace.HANDS_FREE if cell.left.is_ok else Pace.RHYTHM
+        if self._is_pace_open and guided.phase is Phase.IDLE and pace is not guided.pace:
+            self._guided.set_pace(pace, guided.beat_s)
+
+    def _keep_pace(self) -> None:
+        self._is_pace_open = False
 
 
 def _notice_of(guided: GuidedSnapshot) -> str:

@@ -208,10 +208,12 @@ def arm_text(health: StreamHealth) -> str:
     return health.reason or "wait a moment"
 
 
-def level_text(tilt_deg: float, is_level: bool) -> str:
-    """How the right hand is held."""
+def level_text(tilt_deg: float, is_level: bool, *, is_wanted: bool = True) -> str:
+    """How the right hand is held; a posture that is rolled or pitched wants no level hand."""
     if tilt_deg != tilt_deg:
         return "no data"
+    if not is_wanted and not is_level:
+        return f"{tilt_deg:.0f}\u00b0 from level"
     return "level" if is_level else f"{tilt_deg:.0f}\u00b0 off, hold it level"
 
 

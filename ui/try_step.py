@@ -14,6 +14,7 @@ from ui.labels import BigWord, plain
 from ui.model_words import gesture_words, live_words, outcome_words
 from ui.theme import LARGE_PX, SMALL_PX, sized
 
+HOW = "Every gesture is asked for five times, in random order. The robot is not asked for anything."
 _WORDS_PX = 26
 _ANSWER_PX = 24
 
@@ -71,7 +72,7 @@ class TryStep(QWidget):
         self._start.setAccessibleName(
             "Stop trying; what was counted is kept" if trying.is_on else barrier or "Try the model"
         )
-        self._text.setText(trying.text if trying.is_on or not barrier else barrier)
+        self._text.setText(trying.text if trying.is_on else barrier or trying.text or HOW)
         self._progress.setVisible(bool(trying.n_planned))
         self._progress.setRange(0, max(1, trying.n_planned))
         self._progress.setValue(trying.n_done)

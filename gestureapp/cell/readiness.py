@@ -3,6 +3,7 @@
 Unknown counts as not ready.
 """
 
+import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 
@@ -86,7 +87,8 @@ def _sensor_blockers(facts: Facts) -> Iterator[Blocker]:
     if facts.left.is_ok and (facts.stop_seen_s is None or facts.stop_seen_s < facts.stop_wanted_s):
         text = "left arm is not in the stop posture"
         if facts.stop_seen_s is not None:
-            times = f"{facts.stop_seen_s:.1f} s, {facts.stop_wanted_s:.1f} s are needed"
+            seen_s = math.floor(facts.stop_seen_s * 10) / 10  # else it could read as enough
+            times = f"{seen_s:.1f} s, {facts.stop_wanted_s:g} s are needed"
             text = f"left arm is in the stop posture for {times}"
         yield Blocker("left_stop", text, "lower the left arm and hold it level")
 

@@ -42,6 +42,8 @@ class Guided:
         data: The data folder.
         clock: Monotonic seconds.
         wall_clock: Seconds since the epoch.
+        on_ended: Told in words when the thread has ended by an error: nobody sees any more whether
+            a model still fits the takes.
     """
 
     def __init__(
@@ -50,11 +52,12 @@ class Guided:
         data: Path,
         clock: Clock = monotonic,
         wall_clock: Clock = time.time,
+        on_ended: Callable[[str], None] = lambda text: None,
     ) -> None:
         self._data = data
         self._desk = Desk(cell, data, cell.settings.training, clock, wall_clock)
         self._wishes: queue.SimpleQueue[Wish] = queue.SimpleQueue()
-        self._worker = Worker("guided training", self._run)
+        self._worker = Worker("guided training", self._run, lambda error: on_ended(_ended(error)))
 
     def start_thread(self) -> None:
         """Start the thread. Once only."""

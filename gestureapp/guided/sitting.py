@@ -77,15 +77,15 @@ class Sitting:
         self._likeness = Likeness()
         self._good: dict[str, int] = {}
         self.batch: Batch | None = None
-        self.trouble = ""
+        self.trouble = self._store.damage
         self.version = 0
         self.progress: tuple[GestureProgress, ...] = ()
         self.suggested = ""
         self.takes: tuple[Take, ...] = ()
         self.batch_takes: tuple[Take, ...] = ()
         self.n_in_batch = 0
+        self.label = ""
         self._count()
-        self.label = self.suggested
 
     @property
     def person(self) -> str:
@@ -133,7 +133,6 @@ class Sitting:
 
     def start(self, now_s: float) -> None:
         """Begin a batch of the chosen gesture."""
-        self.label = self.label or self.suggested
         if not self.label:
             return
         self.trouble = ""
@@ -162,9 +161,10 @@ class Sitting:
     # The takes.
 
     def redo_last(self) -> None:
-        """Put the last take of the batch into the bin."""
+        """Put the last take of the batch into the bin; its gesture is the chosen one again."""
         if self.batch_takes:
             self.delete(self.batch_takes[-1].id)
+            self.label = self._batch_label
 
     def undo(self) -> None:
         """Take back the last change of the takes."""
@@ -265,6 +265,7 @@ class Sitting:
         qualities = self._likeness.qualities(self.takes)
         self.progress = order.progress(self._good, self._plan.wanted, qualities)
         self.suggested = order.suggest(self._good, self._plan.wanted)
+        self.label = self.label or self.suggested
 
 
 def _session_of(takes: tuple[Take, ...], wall_s: float) -> str:

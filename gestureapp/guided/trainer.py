@@ -17,7 +17,7 @@ from typing import Final, Protocol
 
 from gestureapp.children import child_command, start_beside
 from gestureapp.clock import Clock, monotonic
-from gestureapp.errors import GestureAppError
+from gestureapp.errors import GestureAppError, WorkerError
 from gestureapp.guided.trained import KnownModel, set_of
 from gestureapp.guided.trained_words import missing_words
 from gestureapp.guided.values import GuidedSnapshot, Take, TrainingPhase, TrainingView
@@ -76,7 +76,7 @@ class Trainer:
         self._is_cancelled = False
         self._known = KnownModel()
         self._view = TrainingView()
-        self._worker = Worker("trainer", self._run)
+        self._worker = Worker("trainer", self._run, self._ended)
 
     def start_thread(self) -> None:
         """Start the thread. Once only."""
@@ -109,6 +109,10 @@ class Trainer:
 
     # The thread.
 
+    def _ended(self, error: WorkerError) -> None:
+        """Nobody sees any more whether a model still fits the takes."""
+        self._use_model(None, f"{error}; restart the application", "")
+
     def _run(self, stopping: threading.Event) -> None:
         while not stopping.is_set():
             with contextlib.suppress(queue.Empty):
@@ -133,7 +137,7 @@ class Trainer:
             )
         if known.result is not None:
             self._use_model(known.path, known.out_of_date, picture.person)
-        elif known.is_other_person and picture.person:  # another's model is not for these arms
+        elif picture.person:  # another's model is not for these arms, nor one that is gone
             self._use_model(None, known.trouble, picture.person)
 
     def _train(self, preset: Preset, seed: int) -> None:

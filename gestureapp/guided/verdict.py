@@ -31,6 +31,9 @@ by 50 to 90 degrees."""
 _HELD_SPAN_S: Final = 0.05
 """A posture is looked for in this much after the activation: what a recogniser sees first."""
 
+_SHOWN_SPAN_S: Final = 0.5
+"""Over this a movement, which begins and ends at rest, leaves the mean where gravity has it."""
+
 GOOD: Final = Judgement(Verdict.GOOD, Verdict.GOOD.value)
 
 
@@ -51,11 +54,23 @@ def judge(
         return Judgement(Verdict.GAP, f"gap of {gap_s * 1000:.0f} ms")
     if abs(accel_g).max() >= SATURATED_G:
         return _named(Verdict.SATURATED)
+    shown = _posture_shown(accel_g[(times_s >= 0.0) & (times_s < _SHOWN_SPAN_S)])
+    if shown not in ("", label):
+        return Judgement(Verdict.UNLIKE, f"looks like {shown}")
     fault = _posture(times_s, accel_g) if is_held(label) else _movement(times_s, accel_g)
     if fault is not None:
         return fault
     odd = likeness.oddness(label, times_s, accel_g, others)
     return Judgement(Verdict.UNLIKE, odd) if odd else GOOD
+
+
+def _posture_shown(accel_g: F64) -> str:
+    """Which of RX and RY these readings show by gravity alone; empty when none."""
+    if tilt_of(accel_g) < HELD_DEG:
+        return ""
+    x, y, _ = accel_g.mean(axis=0).tolist()
+    axis, value = ("RY", x) if abs(x) > abs(y) else ("RX", y)
+    return f"{axis}{'+' if value > 0.0 else '-'}"
 
 
 def _movement(times_s: F64, accel_g: F64) -> Judgement | None:

@@ -79,11 +79,13 @@ class Evaluation:
         }
 
     def as_table(self) -> str:
-        """A text table like the paper's Table I, in per cent; the last row is the mean."""
-        shares = self.per_gesture()
-        width = max([len("Gesture"), *(len(label) for label in shares)])
+        """A text table like the paper's Table I, in per cent; the last row is the mean.
+
+        What a terminal would obey in a label is written out.
+        """
+        rows = [(_visible(label), share) for label, share in self.per_gesture().items()]
+        width = max([len("Gesture"), *(len(label) for label, _ in rows)])
         lines = [f"{'Gesture':<{width}}  recognised  wrong  rejected"]
-        rows = list(shares.items())
         if rows:
             mean = np.mean([share for _, share in rows], axis=0).tolist()
             rows.append(("Mean", (mean[0], mean[1], mean[2])))
@@ -95,6 +97,11 @@ class Evaluation:
 
     def _share(self, count: int) -> float:
         return count / self.n if self.n else 0.0
+
+
+def _visible(label: str) -> str:
+    """The label with what cannot be seen, as line ends and control characters, written out."""
+    return "".join(letter if letter.isprintable() else ascii(letter)[1:-1] for letter in label)
 
 
 def tally(

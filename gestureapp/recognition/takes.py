@@ -7,6 +7,7 @@ int (m, sample index inside the take, 0 if absent), optional ``user``, ``session
 
 import hashlib
 import io
+import unicodedata
 import zipfile
 import zlib
 from collections.abc import Mapping, Sequence
@@ -23,6 +24,8 @@ from gestureapp.recognition.marked_takes import add_gravity, put_right
 F64 = NDArray[np.float64]
 I64 = NDArray[np.int64]
 
+_CONTROL = ("Cc", "Cs", "Zl", "Zp")
+"""Kinds of letters that steer a terminal, end a line or cannot be written out."""
 _PER_TAKE = ("user", "session", "repetition")
 
 _UNREADABLE = (OSError, ValueError, EOFError, KeyError, MemoryError, NotImplementedError)
@@ -276,7 +279,14 @@ def _find_fault_inside(takes: TakeSet) -> str:
     if np.any(bad):
         row = int(np.argmax(bad))
         take = int(np.searchsorted(offsets, row, side="right")) - 1
-        return f"'samples' holds no finite number at row {row} (take {take})"
-    if any(not label for label in takes.labels):
-        return f"'labels' is empty for take {takes.labels.index('')}"
+        return f"'samples' holds a number that is not finite at row {row} (take {take})"
+    return _find_fault_of_labels(takes.labels)
+
+
+def _find_fault_of_labels(labels: tuple[str, ...]) -> str:
+    for take, label in enumerate(labels):
+        if not label:
+            return f"'labels' is empty for take {take}"
+        if any(unicodedata.category(letter) in _CONTROL for letter in label):
+            return f"'labels' has a control character in {label!a} (take {take})"
     return ""

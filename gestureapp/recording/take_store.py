@@ -8,7 +8,7 @@ is undone, and a deletion, put the take into the bin; nothing is ever erased.
 """
 
 import zlib
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gestureapp.errors import RecordingInvalid
+from gestureapp.gestures import LABELS
 from gestureapp.recognition.takes import TakeSet
 from gestureapp.recording.people import TAKES_FILE, clean_name, make_person_folder
 from gestureapp.recording.take_database import TakeDatabase, Value
@@ -64,6 +65,7 @@ class TakeStore:
     Attributes:
         person: The name as it is kept.
         path: The database.
+        damage: Which takes could not be read and are left out; empty when all could.
     """
 
     def __init__(self, data: Path, person: str) -> None:
@@ -72,6 +74,7 @@ class TakeStore:
         self._takes: dict[int, Take] = {}
         self._undoable: list[_Change] = []
         self._undone: list[_Change] = []
+        self.damage = ""
         self._db = TakeDatabase(self.path, self.person)
         try:
             self._load()
@@ -250,22 +253,36 @@ class TakeStore:
             "SELECT id, label, session, wall_s, verdict, words, is_excluded, is_deleted,"
             " times_s, accel_g, crc32 FROM take ORDER BY id"
         )
+        left_out: dict[Value, str] = {}
         for row in takes:
             try:
                 take = _take_of(row)
             except (ValueError, TypeError) as error:
-                raise RecordingInvalid(self.path, f"take {row[0]!r}: {error}") from error
-            self._takes[take.id] = take
+                left_out[row[0]] = str(error)
+            else:
+                self._takes[take.id] = take
+        self.damage = _damage_words(self.path, left_out)
         changes = self._db.rows(
             "SELECT is_undone, id, words, take_id, old_label, old_excluded, old_deleted,"
             " new_label, new_excluded, new_deleted FROM change ORDER BY id"
         )
         for is_undone, *rest in changes:
             change = _change_of(rest)
+            if change.take_id in left_out:
+                continue
             if change.take_id not in self._takes:
                 raise RecordingInvalid(self.path, f"change {change.id} is of an unknown take")
             (self._undone if is_undone else self._undoable).append(change)
         self._undone.reverse()
+
+
+def _damage_words(path: Path, left_out: Mapping[Value, str]) -> str:
+    if not left_out:
+        return ""
+    number, why = next(iter(left_out.items()))
+    many = f"{len(left_out)} takes are" if len(left_out) > 1 else "one take is"
+    kept = "left out, all others are kept; record it again"
+    return f"{path}: {many} damaged (take {number!r}: {why}) and {kept}"
 
 
 def _take_of(row: tuple[Value, ...]) -> Take:
@@ -281,6 +298,8 @@ def _take_of(row: tuple[Value, ...]) -> Take:
         raise TypeError("its samples are missing")
     if not isinstance(take_id, int) or not isinstance(wall_s, int | float):
         raise TypeError("its number or time is missing")
+    if label not in LABELS:
+        raise ValueError(f"its gesture {label!r} is unknown")
     if zlib.crc32(times + accel) != crc32:
         raise ValueError("its samples have changed on the disk")
     times_s = np.frombuffer(times, dtype="<f8")

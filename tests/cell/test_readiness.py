@@ -3,6 +3,8 @@
 from dataclasses import replace
 
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
 from gestureapp.cell.engine import field_of
 from gestureapp.cell.readiness import Facts, find_blockers
@@ -197,3 +199,12 @@ def test_what_nobody_knows_yet_counts_as_not_ready():
     )
     names = {blocker.id for blocker in find_blockers(unheard)}
     assert names == {"left_sensor", "right_sensor", "model", "robot_link"}
+
+
+@given(st.floats(0.0, 0.5, exclude_max=True))
+def test_the_time_in_the_stop_posture_never_reads_as_enough(seen_s: float):
+    (blocker,) = find_blockers(replace(READY, stop_seen_s=seen_s))
+    told = blocker.text.removeprefix("left arm is in the stop posture for ")
+    seen, needed = told.removesuffix(" are needed").split(", ")
+    assert float(seen.removesuffix(" s")) <= seen_s
+    assert seen != needed

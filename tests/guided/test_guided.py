@@ -138,6 +138,16 @@ def test_the_database_is_free_after_the_end(guided, tmp_path):
 
 
 @pytest.mark.logs_errors
+def test_whoever_arms_is_told_that_the_thread_has_ended_by_an_error(tmp_path):
+    arms, told = SensedArms(Settings()), []
+    guided = Guided(arms, tmp_path, Ticking(arms), lambda: 1.8e9, told.append)
+    guided.start_thread()
+    guided.set_wanted("many")
+    assert wait_until(lambda: told)
+    assert "restart the application" in told[0]
+
+
+@pytest.mark.logs_errors
 def test_a_thread_that_has_ended_by_an_error_is_told(guided):
     guided.open("Ana")
     guided.set_wanted("many")

@@ -4,6 +4,7 @@ import itertools
 import math
 from contextlib import closing
 
+import numpy as np
 import pytest
 
 from gestureapp.config import Settings, TrainingSettings
@@ -11,8 +12,8 @@ from gestureapp.errors import RecordingError
 from gestureapp.gestures import LABELS
 from gestureapp.guided.order import SUGGESTED
 from gestureapp.guided.values import Pace, Phase, Quality
-from gestureapp.recording.take_store import TakeStore, to_take_set
-from gestureapp.recording.take_values import Verdict
+from gestureapp.recording.take_store import NewTake, TakeStore, to_take_set
+from gestureapp.recording.take_values import Judgement, Verdict
 from gestureapp.sensing.values import Side
 from gestureapp.simulation.people import draw_person
 from tests.guided.bench import WALL_S, Bench
@@ -301,3 +302,36 @@ def test_a_person_who_cannot_be_opened_leaves_the_other_open(bench, tmp_path):
     assert bench.picture.person == "Ana"
     bench.desk.open(" Ana ")
     assert bench.picture.person == "Ana"
+
+
+def test_takes_of_a_person_who_has_all_can_be_changed_and_more_be_wanted(tmp_path):
+    few = Settings(training=TrainingSettings(n_takes=5))
+    with closing(TakeStore(tmp_path, "Ana")) as store:
+        for label in LABELS * 5:
+            good = Judgement(Verdict.GOOD, "")
+            store.add(NewTake(label, "today", WALL_S, good, np.zeros(3), np.ones((3, 3))))
+    bench = Bench(tmp_path, settings=few)
+    bench.desk.open("Ana")
+    assert (bench.picture.label, bench.picture.suggested) == ("", "")
+
+    bench.desk.sitting.delete(bench.desk.takes[-1].id)
+    bench.tick()
+    assert bench.picture.suggested == LABELS[-1]
+    assert "Start when you are ready" in bench.picture.sentence
+
+    bench.desk.sitting.undo()
+    bench.desk.set_wanted(6)
+    bench.tick()
+    assert bench.picture.label in LABELS
+    bench.desk.close()
+
+
+def test_redo_last_after_a_batch_chooses_its_gesture_again(bench):
+    bench.desk.open("Ana")
+    bench.run_batch()
+    assert bench.picture.label != "X+"
+
+    bench.desk.sitting.redo_last()
+    bench.tick()
+    assert bench.picture.label == "X+"
+    assert len(bench.desk.takes) == 9

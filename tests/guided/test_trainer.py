@@ -267,3 +267,22 @@ def test_a_damaged_model_is_told_and_another_person_has_none(make_trainer, until
     assert until(lambda: trainer.view().text == "")
     assert trainer.used[-1] == (None, "", "Bea")
     assert trainer.view().result is None
+
+
+def test_a_model_whose_file_goes_bad_or_away_while_it_is_used_is_no_model_any_more(
+    make_trainer, ended, until, tmp_path
+):
+    trainer = make_trainer()
+    trainer.start()
+    ended(trainer)
+    path = model_path(tmp_path, "Ana")
+    assert until(lambda: trainer.used[-1] == (path, "", "Ana"))
+    whole = path.read_bytes()
+
+    path.write_bytes(whole[:100])
+    assert until(lambda: trainer.used[-1][0] is None)
+    assert "not a readable model file" in trainer.used[-1][1]
+    path.write_bytes(whole)
+    assert until(lambda: trainer.used[-1] == (path, "", "Ana"))
+    path.unlink()
+    assert until(lambda: trainer.used[-1] == (None, "", "Ana"))

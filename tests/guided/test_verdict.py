@@ -168,6 +168,14 @@ def test_the_first_takes_of_a_gesture_are_not_those_of_another():
     assert all(judge("X+", t.times_s, t.accel_g, takes, likeness).is_good for t in honest)
 
 
+@pytest.mark.parametrize("shown", HELD)
+@pytest.mark.parametrize("asked", LABELS)
+def test_a_posture_is_known_by_gravity_from_the_first_take_on(shown, asked):
+    accel_g = performed(shown, -0.5)
+    wanted = GOOD if asked == shown else Judgement(Verdict.UNLIKE, f"looks like {shown}")
+    assert verdict_on(asked, accel_g) == wanted
+
+
 def test_with_too_few_takes_nothing_is_compared():
     takes = list(takes_of(PRACTISED, ENOUGH - 1))
     accel_g = performed("Y+", 0.0)

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from gestureapp.errors import ModelMismatch
+from gestureapp.recognition.evaluation import tally
 from gestureapp.recognition.hearing import evaluate
 from gestureapp.recognition.model_file import Model, TrainingRecord
 from gestureapp.recognition.network import Network
@@ -111,3 +112,17 @@ def test_the_table_has_a_row_for_each_gesture_and_their_mean():
     assert rows[2] == ["X-", "50.0", "0.0", "50.0"]
     assert rows[3] == ["wave", "0.0", "100.0", "0.0"]
     assert rows[4] == ["Mean", "38.9", "44.4", "16.7"]
+
+
+def test_the_table_writes_out_what_a_terminal_would_obey():
+    table = tally(["a"], [("\x1b[31mred", "a"), ("a\nb", None), ("a", "a")]).as_table()
+    lines = table.splitlines()
+    assert [line.split()[0] for line in lines] == [
+        "Gesture",
+        "a",
+        r"\x1b[31mred",
+        r"a\nb",
+        "Mean",
+    ]
+    assert len({len(line) for line in lines}) == 1
+    assert table.replace("\n", "").isprintable()

@@ -287,3 +287,18 @@ def test_with_an_activation_and_gravity_nothing_is_put_right(tmp_path):
 def test_marks_that_cannot_be_used_are_refused(tmp_path, changes, words):
     with pytest.raises(RecordingInvalid, match=words):
         load_takes(marked(tmp_path / "t.npz", **changes))
+
+
+@pytest.mark.parametrize("label", ["\x1b[31mX+", "X+\nY-", "X+\x7f", "X+\u2028", "\x9b31m"])
+def test_a_label_with_a_control_character_is_refused_in_one_line(tmp_path, label):
+    path = write(tmp_path / "t.npz", labels=np.array(["X+", label]))
+    with pytest.raises(RecordingInvalid, match=r"control character in .* \(take 1\)") as refused:
+        load_takes(path)
+    assert str(refused.value).isprintable()
+
+
+def test_a_number_that_is_not_finite_is_told_with_its_row(tmp_path):
+    samples = np.ones((10, 3))
+    samples[5, 1] = np.nan
+    with pytest.raises(RecordingInvalid, match="holds a number that is not finite at row 5"):
+        load_takes(write(tmp_path / "t.npz", samples=samples))

@@ -240,3 +240,20 @@ def test_recognising_does_not_import_torch():
     )
 
     assert subprocess.run([sys.executable, "-c", code], check=False, timeout=60).returncode == 0
+
+
+def test_a_start_whose_network_with_all_takes_is_lost_on_a_gesture_is_not_kept():
+    n_checks = training.EARLIEST_STOP // training.CHECK_EVERY + 2
+    losses = np.full((n_checks, training.SMALL_STARTS, 2), 0.10)
+    losses[-1, 0] = (0.01, 0.20)  # the least error without the held-out takes, but lost with all
+    losses[-2, 1] = (0.02, 0.01)
+    n_networks = 2 * training.SMALL_STARTS
+    numbers = np.arange(n_networks, dtype=np.float64)[:, None, None]
+    kept = [
+        (np.zeros((n_networks, 10, 10)), np.zeros((n_networks, 2, 11)) + 100.0 * check + numbers)
+        for check in range(n_checks)
+    ]
+    outcome = training._stopped(losses, kept, 0)
+    assert outcome.cycles == (n_checks - 1) * training.CHECK_EVERY
+    assert outcome.loss == pytest.approx(0.02)
+    assert outcome.network.output_bias[0] == 100.0 * (n_checks - 2) + 3

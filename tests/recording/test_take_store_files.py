@@ -128,7 +128,6 @@ def test_takes_in_use_are_refused_in_words_and_not_harmed(tmp_path: Path):
     [
         (0, "file is not a database"),
         (4096 * 2, "Page 3: "),
-        (-1000, "samples have changed on the disk"),
     ],
 )
 def test_a_damaged_database_is_kept_aside_and_refused_once(tmp_path, kept, place, cause):
@@ -156,7 +155,32 @@ def test_a_damaged_database_is_kept_aside_and_refused_once(tmp_path, kept, place
     [
         ("UPDATE take SET accel_g = x'00' WHERE id = 2", "take 2: its samples have changed"),
         ("UPDATE take SET times_s = 5 WHERE id = 2", "take 2: its samples are missing"),
-        ("UPDATE take SET verdict = 'splendid' WHERE id = 1", "splendid"),
+        ("UPDATE take SET verdict = 'splendid' WHERE id = 2", "take 2: 'splendid'"),
+        ("UPDATE take SET label = 'Q9' WHERE id = 2", "take 2: its gesture 'Q9' is unknown"),
+    ],
+)
+def test_one_damaged_take_is_left_out_and_the_others_are_kept(tmp_path, kept, statement, words):
+    with closing(sqlite3.connect(kept)) as db:
+        db.execute(statement)
+        db.commit()
+    with closing(TakeStore(tmp_path, "Ana")) as store:
+        assert [take.id for take in store.takes()] == [1, 3]
+        assert "one take is damaged" in store.damage
+        assert words in store.damage
+        while store.undo_words:
+            store.undo()
+        assert all(take.is_deleted for take in store.takes())
+        while store.redo_words:
+            store.redo()
+        add_take(store)
+    with closing(TakeStore(tmp_path, "Ana")) as again:
+        assert [take.id for take in again.takes() if not take.is_deleted] == [1, 3, 4]
+    assert not (kept.parent / "takes.damaged-1.sqlite").exists()
+
+
+@pytest.mark.parametrize(
+    ("statement", "words"),
+    [
         ("DELETE FROM take WHERE id = 3", "change 3 is of an unknown take"),
         ("DROP TABLE change", "no such table: change"),
     ],

@@ -5,7 +5,7 @@ from dataclasses import replace
 import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QLabel, QLineEdit, QListWidget
+from PySide6.QtWidgets import QApplication, QLabel, QLineEdit, QListWidget, QPushButton, QWidget
 
 from gestureapp.guided.guided import Guided
 from gestureapp.sensing.values import LinkState, Side
@@ -101,6 +101,39 @@ def test_whoever_recorded_last_is_offered_in_the_next_run(qtbot, cell, tmp_path,
     again.shutdown()
 
 
+@pytest.mark.parametrize("size", [(1366, 768), (1920, 1080)])
+def test_a_long_name_without_spaces_keeps_to_its_room(qtbot, page, guided, size):
+    page.resize(*size)
+    guided.open("Ana")
+    page.poll()
+    QApplication.processEvents()
+    before = page.findChild(QWidget, "personStep").minimumSizeHint().width()
+    guided.open("W" * 60)
+    page.poll()
+    QApplication.processEvents()
+    step = page.findChild(QWidget, "personStep")
+    assert step.minimumSizeHint().width() <= before
+    for name in ("personChosen", "continuePerson"):
+        widget = step.findChild(QWidget, name)
+        corner = widget.mapTo(page, widget.rect().bottomRight())
+        assert widget.visibleRegion().boundingRect() == widget.rect()
+        assert page.rect().contains(corner)
+        assert widget.toolTip() == "W" * 60
+    button = step.findChild(QPushButton, "continuePerson")
+    assert button.text().startswith("Continue as WWW")
+    assert button.text().endswith("\u2026")
+    assert button.sizeHint().width() <= button.width() <= 420
+
+
+def test_a_name_with_an_ampersand_marks_no_shortcut(page, guided):
+    guided.open("Ana & Bo")
+    page.poll()
+    button = page.findChild(QPushButton, "continuePerson")
+    assert button.text() == "Continue as Ana && Bo"
+    assert button.shortcut().isEmpty()
+    assert text_of(page, "personChosen") == button.toolTip() == "Ana & Bo"
+
+
 def test_an_empty_name_is_told_and_the_step_stays(page):
     enter(page, "   ")
     assert text_of(page, "personTrouble") == "Enter a name first."
@@ -167,6 +200,17 @@ def test_without_the_left_sensor_it_goes_on_by_the_beat(room):
     room.run(1.0)
     assert room.text("sensorsTold") == "Without the left sensor, takes are recorded by the beat."
     assert room.button("sensorsNext").isEnabled()
+
+
+def test_of_a_silent_left_arm_no_posture_is_told(room):
+    height = label(room, "leftPosture").height()
+    room.bench.lose(Side.LEFT)
+    room.run(1.0)
+    assert room.text("leftPosture") == ""
+    assert label(room, "leftPosture").height() == height
+    room.bench.restore(Side.LEFT)
+    room.run(1.0)
+    assert room.text("leftPosture").startswith("Left arm now:")
 
 
 def label(room: Room, name: str) -> QLabel:

@@ -1,17 +1,23 @@
 """Recording as a person sees it: prompt, count-in, beat, takes with verdicts, and the buttons."""
 
+from dataclasses import replace
+
 import pytest
 from PySide6.QtCore import Qt
-from PySide6.QtGui import QAction
+from PySide6.QtGui import QAction, QColor
+from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QDoubleSpinBox, QLabel, QSpinBox
 
+from gestureapp.cell.snapshot import CellState
 from gestureapp.gestures import GESTURES
 from gestureapp.guided.values import Pace, Phase
 from gestureapp.sensing.values import Side
 from tests.ui.sitting import Room
 from ui.gesture_list import GestureRow
 from ui.prompt_view import PromptView
+from ui.record_step import RecordStep
 from ui.take_strip import TakeStrip
+from ui.theme import colours_of
 
 CONTROL = Qt.KeyboardModifier.ControlModifier
 SHIFT = Qt.KeyboardModifier.ShiftModifier
@@ -204,20 +210,105 @@ def test_a_lost_sensor_is_told_across_the_window_until_it_is_back(room):
     assert not bar.isVisible()
 
 
+@pytest.mark.parametrize("by_key", [False, True])
+def test_stop_goes_out_first_then_holds_the_batch_and_is_told(room, by_key):
+    order: list[str] = []
+    stop, pause = room.cell.stop, room.controls.pause
+    room.cell.stop = lambda *why: (order.append("stop"), stop(*why))
+    room.controls.pause = lambda: (order.append("pause"), pause())
+    room.press("startBatch")
+    room.run_until(lambda picture: picture.phase is Phase.WAITING)
+    if by_key:
+        room.key(Qt.Key.Key_Escape)
+    else:
+        QTest.mousePress(room.button("stopButton"), Qt.MouseButton.LeftButton)
+        room.run(0.01)
+    assert order == ["stop", "pause"]
+    assert room.bench.picture.phase is Phase.PAUSED
+    bar = room.window.findChild(QLabel, "stoppedNotice")
+    assert not bar.isVisible()
+    words = "STOP was pressed. The robot stands. Clear what stands against arming, then hold Arm."
+    room.cell.shown = replace(room.cell.shown, state=CellState.STOPPED, sentence=words)
+    room.look()
+    assert bar.isVisible()
+    assert bar.text() == words
+    room.press("navOperate")
+    assert not bar.isVisible()
+
+
+def test_stop_goes_out_where_no_batch_is_under_way(room):
+    room.key(Qt.Key.Key_Escape)
+    assert "stop" in room.cell.calls
+    assert room.bench.picture.phase is Phase.IDLE
+
+
 def test_without_a_left_sensor_takes_go_by_the_beat(qtbot, cell, operator, tmp_path):
     room = Room(cell, operator, tmp_path)
     qtbot.addWidget(room.window)
     room.bench.lose(Side.LEFT)
     room.run(1.0)
     room.record()
+    room.run(0.05)
     assert room.bench.picture.pace is Pace.RHYTHM
     assert room.button("paceRhythm").isChecked()
     room.window.close()
     room.bench.desk.close()
 
 
+def test_the_pace_follows_the_left_sensor_whenever_the_step_is_entered(room):
+    room.press("stepSensors")
+    room.run(2.5)
+    room.press("sensorsNext")
+    room.run(0.05)
+    assert room.button("paceHandsFree").isChecked()
+    room.press("stepSensors")
+    room.bench.lose(Side.LEFT)
+    room.run(1.0)
+    assert "by the beat" in room.text("sensorsTold")
+    room.press("sensorsNext")
+    room.run(0.05)
+    assert room.button("paceRhythm").isChecked()
+    room.press("navOperate")
+    room.bench.restore(Side.LEFT)
+    room.run(2.5)
+    room.press("navTrain")
+    room.run(0.05)
+    assert room.button("paceHandsFree").isChecked()
+
+
+def test_a_pace_chosen_by_hand_stays(room):
+    room.press("paceRhythm")
+    room.press("stepSensors")
+    room.press("stepRecord")
+    room.run(0.05)
+    assert room.bench.picture.pace is Pace.RHYTHM
+    room.press("paceHandsFree")
+    room.press("stepSensors")
+    room.bench.lose(Side.LEFT)
+    room.run(1.0)
+    room.press("stepRecord")
+    room.run(0.05)
+    assert room.bench.picture.pace is Pace.HANDS_FREE
+
+
+def test_the_pace_of_a_batch_on_hold_stays(room):
+    room.run(0.05)
+    assert room.bench.picture.pace is Pace.RHYTHM  # the left sensor's rate was not known yet
+    room.press("startBatch")
+    room.run_until(lambda picture: picture.phase is Phase.WAITING)
+    for phase, pace in ((Phase.PAUSED, Pace.RHYTHM), (Phase.IDLE, Pace.HANDS_FREE)):
+        room.press("stepSensors")
+        room.run(1.0)
+        room.press("stepRecord")
+        room.run(0.05)
+        assert (room.bench.picture.phase, room.bench.picture.pace) == (phase, pace)
+        if phase is Phase.PAUSED:
+            room.press("endBatch")
+
+
 def test_beat_and_number_of_takes_are_set_by_hand(room):
     room.press("paceRhythm")
+    room.run(0.05)
     beat = room.window.findChild(QDoubleSpinBox, "beatTime")
     wanted = room.window.findChild(QSpinBox, "takesWanted")
     beat.setValue(2.0)
@@ -228,6 +319,12 @@ def test_beat_and_number_of_takes_are_set_by_hand(room):
     assert room.bench.picture.beat_s == 2.0
     assert room.text("takeLabel") == "take 1 of 12"
 
+    room.press("paceHandsFree")
+    room.run(0.05)
+    beat.editingFinished.emit()  # the field loses the focus as it is shut
+    room.run(0.05)
+    assert room.bench.picture.pace is Pace.HANDS_FREE
+
 
 def test_the_level_of_the_hand_is_told_except_while_it_moves(room):
     level = room.widget("recordLevel")
@@ -235,6 +332,22 @@ def test_the_level_of_the_hand_is_told_except_while_it_moves(room):
     room.press("startBatch")
     room.run_until(lambda picture: picture.phase is Phase.TAKING)
     assert level.text == "Right hand: moving"
+
+
+@pytest.mark.parametrize("gesture", GESTURES, ids=lambda gesture: gesture.label)
+def test_a_level_hand_is_demanded_only_where_the_gesture_begins_with_one(room, gesture):
+    room.press(f"record_{gesture.label}")
+    tilted = replace(room.bench.picture, tilt_deg=27.0, is_level=False)
+    step = room.window.findChild(RecordStep)
+    step.show_snapshot(tilted, room.cell.shown)
+    is_posture = gesture.label.startswith(("RX", "RY"))
+    words = "27\u00b0 from level" if is_posture else "27\u00b0 off, hold it level"
+    level = room.widget("recordLevel")
+    assert level.text == f"Right hand: {words}"
+    attention = QColor(colours_of(level.palette()).attention).rgb()
+    image = level.grab().toImage()
+    points = ((x, y) for x in range(image.width()) for y in range(image.height()))
+    assert any(image.pixel(x, y) == attention for x, y in points) is not is_posture
 
 
 def test_when_all_takes_of_a_gesture_are_there_the_next_one_is_suggested(room):

@@ -5,6 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from pyqtgraph import PlotWidget
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QLabel, QProgressBar, QPushButton, QRadioButton, QToolButton, QWidget
 
@@ -148,6 +149,19 @@ def test_a_loss_that_is_no_number_is_not_drawn(desk):
     losses = ((1, 0.5), (2, math.nan), (3, 0.0), (4, math.inf), (5, 0.4))
     desk.show(TrainingView(TrainingPhase.RUNNING, losses=losses))
     assert [n for n, _ in desk.step.findChild(LossPlot, "lossPlot").points()] == [1, 5]
+
+
+def test_the_loss_has_no_values_at_its_axes_before_its_first_point(desk):
+    def sides_with_values() -> list[str]:
+        item = desk.step.findChild(LossPlot, "lossPlot").findChild(PlotWidget).getPlotItem()
+        return [side for side in ("left", "bottom") if item.getAxis(side).style["showValues"]]
+
+    desk.show(TrainingView(TrainingPhase.RUNNING))
+    assert sides_with_values() == []
+    desk.show(TrainingView(TrainingPhase.RUNNING, losses=((1, 0.5), (2, 0.4))))
+    assert sides_with_values() == ["left", "bottom"]
+    desk.show(TrainingView(TrainingPhase.RUNNING))
+    assert sides_with_values() == []
 
 
 def test_the_words_come_first_and_large_then_the_figures(desk):

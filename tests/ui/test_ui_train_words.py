@@ -110,5 +110,6 @@ def test_level_and_posture_in_words():
     assert level_text(nan, False) == "no data"
     assert level_text(3.0, True) == "level"
     assert level_text(25.4, False) == "25\u00b0 off, hold it level"
+    assert level_text(25.4, False, is_wanted=False) == "25\u00b0 from level"
     assert "was seen" in posture_text(ArmPosture.START, was_stop_seen=True)
     assert "Lower it" in posture_text(ArmPosture.NEITHER, was_stop_seen=False)
