@@ -7,11 +7,8 @@ from gestureapp.errors import ModelMismatch
 from gestureapp.recognition.evaluation import Evaluation, tally
 from gestureapp.recognition.model_file import Model
 from gestureapp.recognition.paper import SILENT_AFTER_S, PaperRecogniser
-from gestureapp.recognition.takes import TakeSet
+from gestureapp.recognition.takes import RATE_UNKNOWN_HZ, TakeSet
 from gestureapp.recognition.values import Recogniser, Recognition
-
-RATE_UNKNOWN_HZ = 100.0
-"""Taken for takes of unknown rate: the paper's."""
 
 
 def evaluate(model: Model, takes: TakeSet) -> Evaluation:
