@@ -6,6 +6,7 @@ Nothing below the entry points reads files or the environment; they get these va
 from dataclasses import dataclass, field
 from enum import Enum
 from pathlib import Path
+from typing import Final
 
 SCHEMA_VERSION = 1
 
@@ -192,6 +193,12 @@ class PersonSettings:
 
     name: str = ""
     model: Path | None = None
+
+
+N_TAKES_RANGE: Final = (5, 200)
+"""Good takes of each gesture that may be wanted."""
+BEAT_RANGE_S: Final = (1.1, 5.0)
+"""A take ends 1.0 s after its beat, and its last sample has to arrive before the next one."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -11,6 +11,8 @@ from pathlib import Path
 from typing import Any, Final
 
 from gestureapp.config import (
+    BEAT_RANGE_S,
+    N_TAKES_RANGE,
     JointSettings,
     KeepOutSettings,
     RobotSettings,
@@ -126,9 +128,8 @@ RANGES: Final[Mapping[tuple[type, str], Range]] = {
     # Slower, and a ladder's timer would let a robot run for long; faster, and moves would wait.
     (RobotSettings, "supervision_hz"): Range(2.0, 10.0),
     (RobotSettings, "tool_mm"): Range(-1000.0, 1000.0),
-    (TrainingSettings, "n_takes"): Range(5, 200),
-    # A take ends 1.0 s after its beat, and its last sample has to arrive before the next one.
-    (TrainingSettings, "beat_s"): Range(1.1, 5.0),
+    (TrainingSettings, "n_takes"): Range(*N_TAKES_RANGE),
+    (TrainingSettings, "beat_s"): Range(*BEAT_RANGE_S),
     (JointSettings, "s_range_deg"): Range(-180.0, 180.0),
     (JointSettings, "l_range_deg"): Range(-180.0, 180.0),
     (JointSettings, "u_range_deg"): Range(-180.0, 180.0),

@@ -16,7 +16,8 @@ from PySide6.QtWidgets import (
 
 from gestureapp.guided.check import GestureCheck, check_gesture, distance_g, map_takes
 from gestureapp.guided.controls import GuidedControls
-from gestureapp.guided.values import GuidedSnapshot, Take
+from gestureapp.guided.values import GuidedSnapshot
+from gestureapp.recording.take_values import Take
 from ui.check_gestures import CheckGestures
 from ui.labels import plain
 from ui.model_words import check_words

@@ -2,11 +2,11 @@
 
 from collections.abc import Callable
 
-from PySide6.QtGui import QColor, QPalette, QShowEvent
+from PySide6.QtGui import QShowEvent
 from PySide6.QtWidgets import QHBoxLayout, QPushButton, QWidget
 
 from ui.labels import plain
-from ui.theme import TEXT_PX, colours_of, sized
+from ui.theme import TEXT_PX, attention_palette, sized
 
 
 class LastTimeBar(QWidget):
@@ -45,11 +45,7 @@ class LastTimeBar(QWidget):
     def showEvent(self, event: QShowEvent) -> None:
         """Take the colours, and say that it is seen."""
         super().showEvent(event)
-        colours = colours_of(self.window().palette())
-        palette = QPalette(self.palette())
-        palette.setColor(QPalette.ColorRole.Window, QColor(colours.attention))
-        palette.setColor(QPalette.ColorRole.WindowText, QColor(colours.base))
-        self.setPalette(palette)
+        self.setPalette(attention_palette(self))
         on_shown, self._on_shown = self._on_shown, None
         if on_shown is not None:
             on_shown()

@@ -1,11 +1,11 @@
 """A bar across the window for what wants a person soon; in the row kept for bars."""
 
 from PySide6.QtCore import Qt
-from PySide6.QtGui import QColor, QPalette, QShowEvent
+from PySide6.QtGui import QShowEvent
 from PySide6.QtWidgets import QWidget
 
 from ui.labels import ElidedLabel
-from ui.theme import LARGE_PX, colours_of, sized
+from ui.theme import LARGE_PX, attention_palette, sized
 
 
 class NoticeBar(ElidedLabel):
@@ -32,8 +32,4 @@ class NoticeBar(ElidedLabel):
     def showEvent(self, event: QShowEvent) -> None:
         """Take the colours."""
         super().showEvent(event)
-        colours = colours_of(self.window().palette())
-        palette = QPalette(self.palette())
-        palette.setColor(QPalette.ColorRole.Window, QColor(colours.attention))
-        palette.setColor(QPalette.ColorRole.WindowText, QColor(colours.base))
-        self.setPalette(palette)
+        self.setPalette(attention_palette(self))

@@ -17,6 +17,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
+from gestureapp.config import BEAT_RANGE_S, N_TAKES_RANGE
 from gestureapp.guided.controls import GuidedControls
 from gestureapp.guided.values import GuidedSnapshot, Pace, Phase
 from ui.labels import plain
@@ -27,8 +28,6 @@ from ui.theme import LARGE_PX, SMALL_PX, TEXT_PX, sized
 from ui.train_words import is_running, pace_text
 
 WIDTH_PX = 196
-BEAT_RANGE_S = (1.1, 5.0)
-WANTED_RANGE = (5, 200)
 
 
 class RecordControls(QFrame):
@@ -157,7 +156,7 @@ class RecordControls(QFrame):
         self._beat.setSuffix(" s")
         self._wanted.setObjectName("takesWanted")
         self._wanted.setAccessibleName("Good takes wanted of each gesture")
-        self._wanted.setRange(*WANTED_RANGE)
+        self._wanted.setRange(*N_TAKES_RANGE)
         for box in (self._beat, self._wanted):
             box.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
             box.setKeyboardTracking(False)

@@ -9,6 +9,7 @@ from gestureapp.cell.snapshot import Snapshot
 from gestureapp.gestures import is_held
 from gestureapp.guided.controls import GuidedControls
 from gestureapp.guided.values import GuidedSnapshot, Phase
+from gestureapp.recording.take_values import AFTER_S, BEFORE_S
 from ui.arm_plot import ArmPlot
 from ui.gesture_list import GestureList
 from ui.level_view import LevelView
@@ -18,8 +19,6 @@ from ui.record_controls import RecordControls
 from ui.sounds import SoundBox, Sounds, TrainingSounds
 from ui.take_strip import TakeStrip
 
-_BEFORE_S, _AFTER_S = 0.5, 1.0
-"""A take holds the samples from so long before its activation to so long after it."""
 _SIDE_PX = 132
 
 
@@ -66,7 +65,7 @@ class RecordStep(QWidget):
             is_moving=is_moving,
             is_level_wanted=not (guided.label and is_held(guided.label)),
         )
-        taken = (guided.activation_s - _BEFORE_S, guided.activation_s + _AFTER_S)
+        taken = (guided.activation_s - BEFORE_S, guided.activation_s + AFTER_S)
         self._plot.mark_window(taken, cell.t_s)
         self._plot.show_samples(self._cell.right, cell.t_s, cell.right.is_alive)
 

@@ -7,7 +7,8 @@ from PySide6.QtGui import QKeySequence, QShortcut
 from PySide6.QtWidgets import QGridLayout, QMenu, QPushButton, QToolButton, QWidget
 
 from gestureapp.guided.controls import GuidedControls
-from gestureapp.guided.values import GuidedSnapshot, Take
+from gestureapp.guided.values import GuidedSnapshot
+from gestureapp.recording.take_values import Take
 from ui.labels import ElidedLabel
 from ui.model_words import gesture_words
 from ui.theme import SMALL_PX, sized

@@ -11,7 +11,7 @@ from PySide6.QtGui import QColor, QPainter, QPaintEvent, QPen
 from PySide6.QtWidgets import QHBoxLayout, QSizePolicy, QVBoxLayout, QWidget
 
 from gestureapp.guided.check import GRID_S, LEAST_TO_COMPARE, GestureCheck, resample
-from gestureapp.guided.values import Take
+from gestureapp.recording.take_values import Take
 from ui.labels import plain
 from ui.plots import colour_plot, still_plot, ticks
 from ui.theme import AXIS_NAMES, SMALL_PX, TEXT_PX, Colours, colours_of, mixed, sized

@@ -7,7 +7,7 @@ from PySide6.QtCore import QPointF, QRectF, Qt, Signal
 from PySide6.QtGui import QColor, QFont, QPainter, QPaintEvent, QPen, QPolygonF, QResizeEvent
 from PySide6.QtWidgets import QAbstractButton, QHBoxLayout, QSizePolicy, QWidget
 
-from gestureapp.guided.values import Take
+from gestureapp.recording.take_values import Take
 from ui.theme import SMALL_PX, colours_of
 from ui.train_words import short_take_text, take_text, verdict_sign
 

@@ -94,6 +94,15 @@ def colours_of(palette: QPalette) -> Colours:
     return DARK if palette.color(QPalette.ColorRole.Window).lightness() < 128 else LIGHT
 
 
+def attention_palette(widget: QWidget) -> QPalette:
+    """Of a bar that wants a person soon, in the scheme of its window."""
+    colours = colours_of(widget.window().palette())
+    palette = QPalette(widget.palette())
+    palette.setColor(QPalette.ColorRole.Window, QColor(colours.attention))
+    palette.setColor(QPalette.ColorRole.WindowText, QColor(colours.base))
+    return palette
+
+
 def palette_of(colours: Colours) -> QPalette:
     """Qt's palette in one scheme."""
     roles = QPalette.ColorRole

@@ -11,10 +11,9 @@ from gestureapp.guided.values import (
     Pace,
     Phase,
     Quality,
-    Take,
     TrainingView,
-    Verdict,
 )
+from gestureapp.recording.take_values import Take, Verdict
 from gestureapp.sensing.values import ArmPosture, StreamHealth
 
 REST_STATES = (CellState.NOT_READY, CellState.READY, CellState.ARMED, CellState.STOPPED)

@@ -15,10 +15,10 @@ from gestureapp.errors import ModelError
 from gestureapp.recognition.base import BASE
 from gestureapp.recognition.evaluation import Evaluation, tally
 from gestureapp.recognition.folds import FoldBy, divide
-from gestureapp.recognition.hearing import RATE_UNKNOWN_HZ, hear
+from gestureapp.recognition.hearing import hear
 from gestureapp.recognition.model_file import Model, load_model
 from gestureapp.recognition.presets import Preset
-from gestureapp.recognition.takes import TakeSet, load_takes
+from gestureapp.recognition.takes import RATE_UNKNOWN_HZ, TakeSet, load_takes
 from gestureapp.recognition.training import train
 from gestureapp.simulation.negatives import make_negatives
 from gestureapp.simulation.takes import make_takes

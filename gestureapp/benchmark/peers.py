@@ -10,10 +10,9 @@ from importlib.util import find_spec
 import numpy as np
 from numpy.typing import NDArray
 
-from gestureapp.recognition.hearing import RATE_UNKNOWN_HZ
 from gestureapp.recognition.movement import Follower
 from gestureapp.recognition.onset_views import personal_onsets_g, streams_of
-from gestureapp.recognition.takes import TakeSet
+from gestureapp.recognition.takes import RATE_UNKNOWN_HZ, TakeSet
 
 F64 = NDArray[np.float64]
 Predict = Callable[[F64], Sequence[str]]

@@ -10,6 +10,7 @@ within some tens of milliseconds either way, as the two arms do.
 import math
 from typing import Final
 
+from gestureapp.config import BEAT_RANGE_S
 from gestureapp.guided.values import Pace, Phase
 from gestureapp.recording.take_values import AFTER_S
 from gestureapp.sensing.values import ArmPosture, Side
@@ -20,8 +21,6 @@ SETTLE_S: Final = 0.08
 """A take is cut so long after its end: the radio's last samples are there by then."""
 LATE_S: Final = 0.05
 """A beat that comes later than this is missed; the next one comes at its own time."""
-BEAT_MIN_S: Final = 1.1
-BEAT_MAX_S: Final = 5.0
 
 
 class Batch:
@@ -50,7 +49,7 @@ class Batch:
         self, pace: Pace, beat_s: float, size: int, now_s: float, posture: ArmPosture
     ) -> None:
         self.pace = pace
-        self.beat_s = min(max(beat_s, BEAT_MIN_S), BEAT_MAX_S)
+        self.beat_s = min(max(beat_s, BEAT_RANGE_S[0]), BEAT_RANGE_S[1])
         self.size = size
         self.phase = Phase.COUNT_IN
         self.activation_s = -math.inf

@@ -17,8 +17,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from gestureapp.guided.values import Take
 from gestureapp.recognition.model_weights import WINDOW_SAMPLES
+from gestureapp.recording.take_values import Take
 
 F64 = NDArray[np.float64]
 

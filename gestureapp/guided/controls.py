@@ -2,8 +2,9 @@
 
 from typing import Protocol
 
-from gestureapp.guided.values import GuidedSnapshot, Pace, Take, TrainingView
+from gestureapp.guided.values import GuidedSnapshot, Pace, TrainingView
 from gestureapp.recognition.presets import Preset
+from gestureapp.recording.take_values import Take
 
 
 class GuidedControls(Protocol):

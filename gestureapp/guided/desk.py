@@ -9,20 +9,19 @@ from pathlib import Path
 from typing import Final
 
 from gestureapp.clock import Clock
-from gestureapp.config import TrainingSettings
+from gestureapp.config import N_TAKES_RANGE, TrainingSettings
 from gestureapp.errors import RecordingError
 from gestureapp.guided.arms import Arms, SensedCell
 from gestureapp.guided.heard import LastHeard
 from gestureapp.guided.sitting import Plan, Sitting
 from gestureapp.guided.tried_model import TriedModel
 from gestureapp.guided.trying import LiveTest
-from gestureapp.guided.values import GuidedSnapshot, Pace, Phase, Take, Trying
+from gestureapp.guided.values import GuidedSnapshot, Pace, Phase, Trying
 from gestureapp.guided.verdict import LEVEL_DEG
 from gestureapp.guided.words import CHOOSE_PERSON, kept_words, whose_words
 from gestureapp.recording.people import clean_name, list_people, model_path, note_last_person
+from gestureapp.recording.take_values import Take
 
-WANTED_MIN: Final = 5
-WANTED_MAX: Final = 200
 _BUSY: Final = (Phase.COUNT_IN, Phase.WAITING, Phase.TAKING, Phase.SENSOR_LOST)
 
 
@@ -124,7 +123,7 @@ class Desk:
 
     def set_wanted(self, n_takes: int) -> None:
         """Want so many good takes of each gesture."""
-        wanted = min(max(n_takes, WANTED_MIN), WANTED_MAX)
+        wanted = min(max(n_takes, N_TAKES_RANGE[0]), N_TAKES_RANGE[1])
         self._set_plan(replace(self._plan, wanted=wanted))
 
     def start_trying(self, per_gesture: int) -> None:

@@ -19,8 +19,9 @@ from gestureapp.errors import RecordingError, WorkerError
 from gestureapp.guided.arms import SensedCell
 from gestureapp.guided.desk import Desk
 from gestureapp.guided.sitting import Sitting
-from gestureapp.guided.values import GuidedSnapshot, Pace, Phase, Take
+from gestureapp.guided.values import GuidedSnapshot, Pace, Phase
 from gestureapp.recording.people import last_person, list_people
+from gestureapp.recording.take_values import Take
 from gestureapp.worker import Worker
 
 TICK_S: Final = 0.01

@@ -9,16 +9,16 @@ import numpy as np
 
 from gestureapp.errors import ModelError, RecordingError
 from gestureapp.guided.trained_words import facts_of, words_of
-from gestureapp.guided.values import GuidedSnapshot, Take, TrainingResult
+from gestureapp.guided.values import GuidedSnapshot, TrainingResult
 from gestureapp.recognition.evaluation import tally
 from gestureapp.recognition.model_file import Model, load_model
-from gestureapp.recognition.takes import TakeSet
+from gestureapp.recognition.takes import RATE_UNKNOWN_HZ, TakeSet
 from gestureapp.recording.people import model_path
 from gestureapp.recording.take_store import TakeStore, to_take_set
+from gestureapp.recording.take_values import Take
 
 TAKES_CHANGED: Final = "the takes have changed since the model was trained"
 GESTURES_CHANGED: Final = "the gestures have changed since the model was trained"
-RATE_ASSUMED_HZ: Final = 100.0
 
 Stamp = tuple[int, int]
 """When a file was written, and its size; (0, 0) without a file."""
@@ -150,7 +150,7 @@ def _rate_hz(takes: Sequence[Take]) -> float:
     """The nearest whole number of samples a second: the middle of all the times between two."""
     steps = [np.diff(take.times_s) for take in takes]
     middle_s = float(np.median(np.concatenate(steps))) if steps else 0.0
-    return float(max(1, round(1.0 / middle_s))) if middle_s > 0.0 else RATE_ASSUMED_HZ
+    return float(max(1, round(1.0 / middle_s))) if middle_s > 0.0 else RATE_UNKNOWN_HZ
 
 
 def _stamp_of(path: Path | None) -> Stamp:

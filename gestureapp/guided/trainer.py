@@ -20,13 +20,13 @@ from gestureapp.clock import Clock, monotonic
 from gestureapp.errors import GestureAppError, WorkerError
 from gestureapp.guided.trained import KnownModel, set_of
 from gestureapp.guided.trained_words import missing_words
-from gestureapp.guided.values import GuidedSnapshot, Take, TrainingPhase, TrainingView
+from gestureapp.guided.values import GuidedSnapshot, TrainingPhase, TrainingView
 from gestureapp.recognition.model_file import load_model, save_model
 from gestureapp.recognition.presets import Preset
 from gestureapp.recognition.takes import TakeSet, save_takes
 from gestureapp.recognition.training_job import Failed, Finished, Job, Progress, parse_answer
 from gestureapp.recording.people import model_path
-from gestureapp.recording.take_values import sitting_of
+from gestureapp.recording.take_values import Take, sitting_of
 from gestureapp.worker import Worker
 
 LOOK_S: Final = 0.25

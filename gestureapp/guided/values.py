@@ -4,9 +4,7 @@ from dataclasses import dataclass, field
 from enum import Enum
 
 from gestureapp.recognition.evaluation import Evaluation
-from gestureapp.recording.take_values import Judgement as Judgement
-from gestureapp.recording.take_values import Take as Take
-from gestureapp.recording.take_values import Verdict as Verdict
+from gestureapp.recording.take_values import Take
 from gestureapp.sensing.values import ArmPosture
 
 

@@ -2,7 +2,8 @@
 
 from gestureapp.gestures import gesture, is_held
 from gestureapp.guided.batch import Batch
-from gestureapp.guided.values import Pace, Phase, Take
+from gestureapp.guided.values import Pace, Phase
+from gestureapp.recording.take_values import Take
 
 CHOOSE_PERSON = "Choose whose takes these are."
 ALL_DONE = "All takes are there: look at them, then train."

@@ -7,11 +7,9 @@ from gestureapp.errors import ModelMismatch
 from gestureapp.recognition.evaluation import Evaluation, tally
 from gestureapp.recognition.kinds import recogniser_for
 from gestureapp.recognition.model_file import Model
-from gestureapp.recognition.takes import TakeSet
+from gestureapp.recognition.takes import RATE_UNKNOWN_HZ, TakeSet
 from gestureapp.recognition.values import SILENT_AFTER_S, Recogniser, Recognition
 
-RATE_UNKNOWN_HZ = 100.0
-"""Taken for takes of unknown rate: the paper's."""
 TICK_S = 0.01
 """After the end of a take the recogniser is let know so often that time goes on."""
 

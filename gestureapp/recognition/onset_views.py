@@ -11,10 +11,9 @@ from dataclasses import dataclass, fields
 import numpy as np
 from numpy.typing import NDArray
 
-from gestureapp.recognition.hearing import RATE_UNKNOWN_HZ
 from gestureapp.recognition.movement import ONSET_G, ONSET_MOST_G
 from gestureapp.recognition.movement_batch import Followed, Streams, follow_all, moments_at
-from gestureapp.recognition.takes import TakeSet
+from gestureapp.recognition.takes import RATE_UNKNOWN_HZ, TakeSet
 from gestureapp.recognition.window import Moment
 
 F64 = NDArray[np.float64]

@@ -10,7 +10,7 @@ from gestureapp.errors import NotEnoughTakes
 from gestureapp.gestures import LABELS
 from gestureapp.recognition.model_weights import WINDOW_SAMPLES
 from gestureapp.recognition.presets import MIN_TAKES
-from gestureapp.recognition.takes import TakeSet
+from gestureapp.recognition.takes import RATE_UNKNOWN_HZ, TakeSet
 
 F64 = NDArray[np.float64]
 I64 = NDArray[np.int64]
@@ -24,8 +24,6 @@ VIGOUR = 0.1
 """Relative standard deviation of how strongly a take departs from rest."""
 REST_G = np.array([0.0, 0.0, 1.0])
 """A level hand at rest."""
-RATE_ASSUMED_HZ = 100.0
-"""Of takes that do not tell their rate."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -97,7 +95,7 @@ def patterns_of(takes: TakeSet) -> Patterns:
     """
     labels, rows = ordered_labels(takes), whole_takes(takes)
     _refuse_few(takes, labels, rows)
-    rate_hz = takes.rate_hz or RATE_ASSUMED_HZ
+    rate_hz = takes.rate_hz or RATE_UNKNOWN_HZ
     reach = max(1, round(FARTHEST_S * rate_hz))
     steps = np.arange(-reach, WINDOW_SAMPLES + reach)
     around = np.empty((len(rows), len(steps), 3))

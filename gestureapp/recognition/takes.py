@@ -33,6 +33,10 @@ _UNREADABLE = (OSError, ValueError, EOFError, KeyError, MemoryError, NotImplemen
 beside these); NotImplementedError is a compression that this Python cannot read."""
 
 
+RATE_UNKNOWN_HZ = 100.0
+"""Taken for takes of unknown rate: the paper's."""
+
+
 @dataclass(frozen=True, slots=True)
 class TakeSet:
     """Takes of any gestures by anybody. Arrays are read-only.

@@ -16,7 +16,7 @@ from gestureapp.guided.check import (
     map_takes,
     resample,
 )
-from gestureapp.guided.values import Judgement, Take, Verdict
+from gestureapp.recording.take_values import Judgement, Take, Verdict
 from gestureapp.simulation.takes import make_takes
 
 GOOD = Judgement(Verdict.GOOD, "good")

@@ -4,8 +4,8 @@ from pathlib import Path
 
 import numpy as np
 
-from gestureapp.guided.values import Judgement, Verdict
 from gestureapp.recording.take_store import NewTake, TakeStore
+from gestureapp.recording.take_values import Judgement, Verdict
 from gestureapp.simulation.takes import make_takes
 
 PERSON = "Ana"

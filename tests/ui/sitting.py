@@ -9,8 +9,9 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QAbstractButton, QApplication, QLabel, QWidget
 
 from gestureapp.guided.sitting import Sitting
-from gestureapp.guided.values import GuidedSnapshot, Pace, Take, TrainingView
+from gestureapp.guided.values import GuidedSnapshot, Pace, TrainingView
 from gestureapp.recognition.presets import Preset
+from gestureapp.recording.take_values import Take
 from tests.guided.bench import Bench
 from ui.main_window import MainWindow
 

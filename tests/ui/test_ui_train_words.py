@@ -9,16 +9,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from gestureapp.gestures import GESTURES
-from gestureapp.guided.values import (
-    GestureProgress,
-    GuidedSnapshot,
-    Judgement,
-    Phase,
-    Quality,
-    Take,
-    TrainingView,
-    Verdict,
-)
+from gestureapp.guided.values import GestureProgress, GuidedSnapshot, Phase, Quality, TrainingView
+from gestureapp.recording.take_values import Judgement, Take, Verdict
 from gestureapp.sensing.values import ArmPosture
 from ui.prompt_view import two_lines
 from ui.train_words import (
