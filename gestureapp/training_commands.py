@@ -17,7 +17,7 @@ def add_commands(commands: "argparse._SubParsersAction[argparse.ArgumentParser]"
     train = commands.add_parser("train", help="train a model from takes")
     train.add_argument("takes", type=Path, metavar="TAKES.npz")
     train.add_argument("-o", "--out", type=Path, required=True, metavar="MODEL.json")
-    train.add_argument("--preset", choices=("onset", "paper", "small"), default="onset")
+    train.add_argument("--preset", choices=("default", "paper", "small"), default="default")
     train.add_argument("--seed", type=_seed, default=0)
     train.add_argument(
         "--folds",

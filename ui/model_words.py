@@ -12,7 +12,7 @@ from gestureapp.recognition.evaluation import Evaluation
 from gestureapp.recognition.presets import Preset
 
 PRESET_WORDS = {
-    Preset.ONSET: "From the onset: follows the movement, answers as soon as it is sure",
+    Preset.DEFAULT: "From the onset: follows the movement, answers as soon as it is sure",
     Preset.PAPER: "As the paper: learning rate 0.25, 100,000 cycles; longer",
 }
 _MINUTE_S = 60.0

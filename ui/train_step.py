@@ -132,7 +132,7 @@ class TrainStep(QWidget):
             button = QRadioButton(PRESET_WORDS[preset])
             button.setObjectName(f"preset_{preset.value}")
             button.setAccessibleName(PRESET_WORDS[preset])
-            button.setChecked(preset is Preset.ONSET)
+            button.setChecked(preset is Preset.DEFAULT)
             sized(button, TEXT_PX)
             self._presets.addButton(button, number)
             layout.addWidget(button, 0, Qt.AlignmentFlag.AlignLeft)

@@ -34,7 +34,7 @@ def measure_training() -> Report:
     columns: list[tuple[str, Shares]] = []
     operator: Shares = {}
     with tempfile.TemporaryDirectory() as name:
-        for preset, aim in (("paper", "40 s"), ("onset", "8 s")):
+        for preset, aim in (("paper", "40 s"), ("default", "8 s")):
             times: list[float] = []
             people = [
                 _one(Path(name), times, preset, SEED + index, practised=False)
@@ -44,7 +44,7 @@ def measure_training() -> Report:
             columns.append((f"{PEOPLE} ordinary people, `{preset}`", _mean(people)))
             words = f"{preset} preset with its cross-validation, {12 * TRAINED_ON} takes"
             rows.append(Row(f"{words}, whole process", "s", tuple(times), aim))
-    columns.append(("a trained operator, `onset`", operator))
+    columns.append(("a trained operator, `default`", operator))
     return Report("Training", rows, [_table(columns)])
 
 

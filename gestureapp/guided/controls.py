@@ -92,7 +92,7 @@ class TrainerControls(Protocol):
     def view(self) -> TrainingView:
         """The newest frozen picture; polled at the display rate."""
 
-    def start(self, preset: Preset = Preset.ONSET, seed: int = 0) -> None:
+    def start(self, preset: Preset = Preset.DEFAULT, seed: int = 0) -> None:
         """Train from the takes that count now."""
 
     def cancel(self) -> None:

@@ -93,7 +93,7 @@ class Trainer:
         """The newest frozen picture; polled at the display rate."""
         return self._view
 
-    def start(self, preset: Preset = Preset.ONSET, seed: int = 0) -> None:
+    def start(self, preset: Preset = Preset.DEFAULT, seed: int = 0) -> None:
         """Train from the takes that count now."""
         with self._lock:
             if self._view.phase is TrainingPhase.RUNNING:

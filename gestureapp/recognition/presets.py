@@ -9,7 +9,7 @@ MIN_TAKES = 5
 class Preset(Enum):
     """How to train."""
 
-    ONSET = "onset"
+    DEFAULT = "default"
     """Networks that follow the movement from its onset, from the shared base model; the default."""
     PAPER = "paper"
     """As the paper: 9-10-12, learning rate 0.25, 100,000 cycles. See ``training.PAPER_RULE``."""

@@ -1,6 +1,6 @@
 """Training of models, in a process of its own: it uses torch.
 
-Every preset trains the folds of the cross-validation together with the model. ``onset`` stands in
+Every preset trains the folds of the cross-validation together with the model. ``default`` stands in
 ``onset_training``. The others write the gradients of the paper's 9-10-12 sigmoid network by hand,
 over all takes at once; the window of a take is its first three samples from the activation, at the
 take's own rate: such a model trained from takes of 50 Hz is for a sensor of 50 Hz.
@@ -93,7 +93,7 @@ def no_progress(done: int, total: int, loss: float) -> None:
 
 def train(
     takes: TakeSet,
-    preset: Preset = Preset.ONSET,
+    preset: Preset = Preset.DEFAULT,
     seed: int = 0,
     progress: Progress = no_progress,
     clock: Clock = monotonic,
@@ -109,7 +109,7 @@ def train(
 
     Args:
         takes: At least ``MIN_TAKES`` of each gesture that occurs, and two gestures. The preset
-            ``onset`` does with one take of each where they are all of the gesture set; with one,
+            ``default`` does with one take of each where they are all of the gesture set; with one,
             there is no cross-validation.
         preset: The recipe.
         seed: Of the first weights, the choice of held-out takes and all other chance.
@@ -126,12 +126,12 @@ def train(
         ValueError: the takes cannot be divided by ``folds``.
     """
     begun_s = clock()
-    learn = _train_onset if preset is Preset.ONSET else _train_paper
+    learn = _train_onset if preset is Preset.DEFAULT else _train_paper
     found = learn(takes, preset, seed, progress, folds, is_validated)
     record = replace(found.record, takes_from=takes_from)
     people = set(takes.user)
     model = Model(
-        kind=KIND_ONSET if preset is Preset.ONSET else KIND_PAPER,
+        kind=KIND_ONSET if preset is Preset.DEFAULT else KIND_PAPER,
         labels=found.labels,
         network=found.networks[0],
         person=people.pop() if len(people) == 1 else "",
@@ -139,7 +139,7 @@ def train(
         takes_fingerprint=takes.fingerprint(),
         app_version=__version__,
         created=datetime.now(UTC).isoformat(timespec="seconds"),
-        input_words=INPUT_ONSET if preset is Preset.ONSET else INPUT_PAPER,
+        input_words=INPUT_ONSET if preset is Preset.DEFAULT else INPUT_PAPER,
         decision=found.decisions[0],
     )
     if found.division is not None:

@@ -25,7 +25,7 @@ class Job:
 
     takes: Path
     out: Path
-    preset: Preset = Preset.ONSET
+    preset: Preset = Preset.DEFAULT
     seed: int = 0
     takes_from: str = ""
 

@@ -1,4 +1,4 @@
-"""The preset ``onset`` with its real base model: simulated people, and takes of other makes."""
+"""The preset ``default`` with its real base model: simulated people, and takes of other makes."""
 
 from collections import Counter
 from dataclasses import replace
@@ -139,7 +139,7 @@ def test_progress_is_told_in_order_up_to_the_end():
 
     assert [done for done, _, _ in told] == sorted({done for done, _, _ in told})
     assert told[-1][:2] == (200, 200)
-    assert (model.training.preset, model.training.cycles) == ("onset", 200)
+    assert (model.training.preset, model.training.cycles) == ("default", 200)
 
 
 def test_the_base_alone_knows_people_it_has_never_met_and_few_of_its_non_gestures():
@@ -153,4 +153,4 @@ def test_a_missing_base_is_said_with_its_place(monkeypatch, tmp_path):
     monkeypatch.setattr(base, "BASE", tmp_path / "base.json")
 
     with pytest.raises(ModelInvalid, match=r"base\.json"):
-        train(make_takes(1, 5, SEED, gestures=("X+", "X-")), Preset.ONSET)
+        train(make_takes(1, 5, SEED, gestures=("X+", "X-")), Preset.DEFAULT)

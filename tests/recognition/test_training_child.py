@@ -39,7 +39,7 @@ def child():
 @pytest.fixture
 def job(tmp_path):
     save_takes(tmp_path / "takes.npz", make_takes(1, 6, 7))
-    return Job(tmp_path / "takes.npz", tmp_path / "out.json", Preset.ONSET, 3, "a test")
+    return Job(tmp_path / "takes.npz", tmp_path / "out.json", Preset.DEFAULT, 3, "a test")
 
 
 def give(child: subprocess.Popen, job: Job) -> None:

@@ -104,7 +104,7 @@ class NoTrainer:
     def view(self) -> TrainingView:
         return TrainingView()
 
-    def start(self, preset: Preset = Preset.ONSET, seed: int = 0) -> None:
+    def start(self, preset: Preset = Preset.DEFAULT, seed: int = 0) -> None:
         raise NotImplementedError
 
     def cancel(self) -> None:

@@ -36,7 +36,7 @@ class NotedTrainer:
     def view(self) -> TrainingView:
         return self.shown
 
-    def start(self, preset: Preset = Preset.ONSET, seed: int = 0) -> None:
+    def start(self, preset: Preset = Preset.DEFAULT, seed: int = 0) -> None:
         self.started.append(preset)
 
     def cancel(self) -> None:
@@ -102,7 +102,7 @@ def test_one_press_trains_by_the_default_preset(desk):
     desk.show(TrainingView())
     assert desk.text("trainText") == "360 takes of 12 gestures count."
     desk.press("trainButton")
-    assert desk.trainer.started == [Preset.ONSET]
+    assert desk.trainer.started == [Preset.DEFAULT]
 
 
 def test_the_other_preset_is_folded_away_and_can_be_chosen(desk):
@@ -205,7 +205,7 @@ def test_a_training_that_ended_early_says_so_and_leaves_the_model_in_sight(desk,
     desk.show(TrainingView(phase, text=text, result=result(), out_of_date="the takes have changed"))
     assert desk.text("trainText").startswith(f"{text}\nOut of date: ")
     desk.press("trainButton")
-    assert desk.trainer.started == [Preset.ONSET]
+    assert desk.trainer.started == [Preset.DEFAULT]
 
 
 def test_another_result_replaces_the_first(desk):
