@@ -9,7 +9,8 @@ from gestureapp import cli
 from gestureapp.benchmark import contest, peers
 from gestureapp.benchmark.contest import at_onset, measure_file, measure_simulated
 from gestureapp.errors import ModelError
-from gestureapp.recognition import training
+from gestureapp.recognition import onset_training, training
+from gestureapp.recognition.members import Steps
 from gestureapp.recognition.takes import TakeSet, save_takes
 
 REST_S = 0.5
@@ -18,6 +19,8 @@ REST_S = 0.5
 @pytest.fixture
 def few_cycles(monkeypatch):
     monkeypatch.setattr(training, "PAPER_CYCLES", 400)
+    monkeypatch.setattr(onset_training, "NEW", Steps(60, 2e-3, 64, 1e-3))
+    monkeypatch.setattr(onset_training, "KEPT", Steps(30, 1e-3, 64, 1e-3))
     monkeypatch.setattr(contest, "TRAINED_ON", 6)
     monkeypatch.setattr(contest, "TESTED_ON", 2)
     monkeypatch.setattr(contest, "ADAPTED_TO", (1, 6))
@@ -39,7 +42,7 @@ def pushes(begin=60, **who):
     return TakeSet(np.concatenate(parts), offsets, tuple(labels), activation, rate_hz=100.0, **who)
 
 
-WHO = {"user": ("a",) * 20 + ("b",) * 20, "repetition": tuple(f"{n // 2 % 10}" for n in range(40))}
+WHO = {"user": ("a",) * 20 + ("b",) * 20, "repetition": tuple(f"{n // 10 % 2}" for n in range(40))}
 
 
 @pytest.mark.usefixtures("few_cycles")

@@ -5,8 +5,8 @@ import pytest
 
 from gestureapp.gestures import LABELS
 from gestureapp.recognition.hearing import evaluate
+from gestureapp.recognition.kinds import recogniser_for
 from gestureapp.recognition.model_file import load_model
-from gestureapp.recognition.paper import PaperRecogniser
 from gestureapp.sensing.posture import PostureDetector
 from gestureapp.sensing.values import ArmPosture
 from gestureapp.simulation.arm import LeftArm, RightArm, start_seen_after_s
@@ -102,7 +102,7 @@ def test_the_demonstrations_model_was_made_from_the_takes_it_names():
     model = load_model(DEMO_MODEL)
 
     assert model.labels == LABELS
-    assert (model.training.preset, model.training.cycles) == ("paper", 100_000)
+    assert (model.kind, model.training.preset) == ("onset", "default")
     assert model.training.n_takes == 360
 
 
@@ -116,7 +116,7 @@ def test_both_arms_of_the_demonstration_together_are_recognised():
         right.perform_for(label, 2.0)
         left.take(ArmPosture.START, 2.0 - start_seen_after_s(person))
         activation_s = seen_s(person.left_sensor.read, left, rng)
-        recogniser = PaperRecogniser(model)
+        recogniser = recogniser_for(model)
         recogniser.activate(number, activation_s)
         times_s = (np.arange(300) + rng.uniform()) / 100.0
         readings = person.right_sensor.read(right.accel_at(times_s), rng)
