@@ -27,8 +27,8 @@ SEED = 8123
 TRAINED_ON, TESTED_ON = 30, 10
 """Takes of each gesture: on the first day, and on each of the later ones."""
 LATER_DAYS = (2, 3, 4)
-PEERS_PEOPLE = 5
-"""The paper's 100,000 cycles take their time: so many people are enough to see it."""
+FEW_PEOPLE = 5
+"""So many are enough to see adaptation and the price of certainty."""
 ADAPTED_TO = (1, 3, 5, 10, 30)
 SETTINGS = ((0.9, 0.4), (0.95, 0.5), (0.95, 0.6), (0.97, 0.7), (0.98, 0.8), (0.99, 0.9))
 OURS, HEARD = "ours", "some gesture"
@@ -98,7 +98,7 @@ def measure_simulated(n_people: int, seed: int = SEED) -> ContestReport:
     """Have everybody hear simulated people, who trained on one day, on three later ones.
 
     Args:
-        n_people: How many; each trains alone. The peers hear the first ``PEERS_PEOPLE``.
+        n_people: How many; each trains alone. Some 40 s for each, most of it the paper's cycles.
         seed: Who they are.
     """
     first = make_takes(n_people, TRAINED_ON, seed, session=1)
@@ -106,14 +106,13 @@ def measure_simulated(n_people: int, seed: int = SEED) -> ContestReport:
     names = list(dict.fromkeys(first.user))
     own = {name: _of(first, name) for name in names}
     parts = [(own[name], _of(day, name)) for name in names for day in later]
-    few = parts[: PEERS_PEOPLE * len(later)]
-    ours = [(OURS, _score(parts, learn_ours))]
-    columns = [(name, _score(few, learn)) for name, learn in _peers()]
+    few = parts[: FEW_PEOPLE * len(later)]
+    columns = [(name, _score(parts, learn)) for name, learn in (*_peers(), (OURS, learn_ours))]
     days = f"{TRAINED_ON} takes of each gesture to train, {len(later)} later days"
     people = f"{n_people} simulated people"
     return ContestReport(
         [
-            Contest(f"{people}, {days}", [*columns, *ours]),
+            Contest(f"{people}, {days}", columns),
             Contest(f"{OURS}, by takes of each gesture to train", list(_adapted(few))),
             Contest(f"{OURS}, by certainty needed at once / in the end", list(_by_setting(few))),
             _nongestures(parts[0][0]),
