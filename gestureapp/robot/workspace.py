@@ -172,7 +172,7 @@ def _outside_planes(at: Vector, field: FieldOfOperation) -> Refusal | None:
         (field.ceiling_mm - at[2], "ceiling", field.ceiling_mm, "above"),
     ):
         if room < EDGE_MM:
-            asked, limit = f"z {at[2]:.1f} mm", f"{name} at z {limit_mm:.1f} mm"
+            asked, limit = f"z {at[2]:z.1f} mm", f"{name} at z {limit_mm:z.1f} mm"
             is_on_edge = room > -EDGE_MM
             text = f"the tool stands {'on' if is_on_edge else word} the {limit}, at {asked}"
             return Refusal("on_edge" if is_on_edge else "outside_field", text, asked, limit)
@@ -180,7 +180,7 @@ def _outside_planes(at: Vector, field: FieldOfOperation) -> Refusal | None:
 
 
 def _inside(at: Vector, field: FieldOfOperation) -> Refusal | None:
-    asked = "x {:.1f}, y {:.1f}, z {:.1f} mm".format(*at)
+    asked = "x {:z.1f}, y {:z.1f}, z {:z.1f} mm".format(*at)
     for body in field.obstacles:
         if body.holds(at, -EDGE_MM):
             text = f"the tool stands inside the {body.name}, at {asked}"
@@ -220,7 +220,7 @@ def _turning_room(pose: Pose, direction: Direction, field: FieldOfOperation) -> 
     low, high = range_deg = field.ranges_deg[direction.axis]
     name = f"R{AXES[direction.axis].lower()}"
     angle = nearest_turn(pose.rotation_deg[direction.axis], range_deg)
-    asked, limit = f"{name} {angle:.2f} deg", f"{low:.1f} to {high:.1f} deg"
+    asked, limit = f"{name} {angle:z.2f} deg", f"{low:.1f} to {high:.1f} deg"
     if angle < low - EDGE_DEG or angle > high + EDGE_DEG:
         return Refusal("outside_field", f"{asked} is outside its range of {limit}", asked, limit)
     left = (high - angle) if direction.sign > 0 else (angle - low)

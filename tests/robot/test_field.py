@@ -138,6 +138,12 @@ def test_a_start_that_is_not_inside_is_refused_for_every_direction(start, direct
         assert plan(start, direction, field) == refusal
 
 
+def test_a_place_a_hair_below_zero_reads_as_zero():
+    refusal = find_outside(at(800, 0, -0.0), replace(BARE, floor_mm=-0.0))
+
+    assert refusal.text == "the tool stands on the floor at z 0.0 mm, at z 0.0 mm"
+
+
 @settings(max_examples=200)
 @given(WORKING, TURNS)
 def test_a_turn_ends_in_its_range_and_within_the_arm(start, direction):
