@@ -1,11 +1,33 @@
 """A frame's raw values to g: nominal scale, limit, then the sensor's own errors. Pure."""
 
+from dataclasses import dataclass
+
 from gestureapp.config import SensorSettings
 from gestureapp.sensing.lines import FIRST_BYTES
 from gestureapp.sensing.protocols import Protocol
 from gestureapp.sensing.values import Frame, Impossible
 
 Vector = tuple[float, float, float]
+Matrix = tuple[Vector, Vector, Vector]
+
+_IDENTITY: Matrix = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
+
+
+@dataclass(frozen=True, slots=True)
+class Calibration:
+    """One sensor's own errors: the specific force is ``matrix`` times (nominal - ``offset_g``).
+
+    Attributes:
+        offset_g: Reading at zero g, x, y, z, in g of the nominal scale.
+        matrix: Gain on the diagonal, cross-axis beside it, rows x, y, z.
+    """
+
+    offset_g: Vector = (0.0, 0.0, 0.0)
+    matrix: Matrix = _IDENTITY
+
+
+NOMINAL = Calibration()
+"""As the data sheet says: a particular ADXL330 may be 10 % off."""
 
 _AXES = "XYZ"
 

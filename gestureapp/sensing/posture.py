@@ -1,12 +1,26 @@
 """What the left arm says: stop, start or neither. Pure: samples in, posture out."""
 
 import math
+from dataclasses import dataclass
 
 from gestureapp.sensing.values import ArmPosture
 
 QUIET_MIN_G = 0.6
 QUIET_MAX_G = 1.4
 """Outside of this the arm is shaken or thrown: the direction says nothing about its posture."""
+
+
+@dataclass(frozen=True, slots=True)
+class LeftPostures:
+    """Where gravity points in a person's two postures of the left arm, as unit vectors.
+
+    Attributes:
+        stop: Level: +Z.
+        start: Turned about Y: -X (paper, figure 8).
+    """
+
+    stop: tuple[float, float, float] = (0.0, 0.0, 1.0)
+    start: tuple[float, float, float] = (-1.0, 0.0, 0.0)
 
 
 class PostureDetector:

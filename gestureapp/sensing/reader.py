@@ -11,6 +11,7 @@ from gestureapp.sensing.calibration import accel_of
 from gestureapp.sensing.ports import Port, open_port
 from gestureapp.sensing.protocols import protocol
 from gestureapp.sensing.values import (
+    Battery,
     Connected,
     CounterGap,
     CounterJump,
@@ -18,6 +19,7 @@ from gestureapp.sensing.values import (
     Disconnected,
     Frame,
     Garbage,
+    Identity,
     Impossible,
     Sample,
     SensorEvent,
@@ -145,7 +147,7 @@ class SensorReader:
         for event in events:
             if isinstance(event, Frame):
                 self._hand_on_frame(event, t_s)
-            elif isinstance(event, CounterGap | CounterJump):
+            elif isinstance(event, CounterGap | CounterJump | Identity | Battery):
                 self._on_event(event)
             else:
                 self._hand_on_garbage(event, t_s)

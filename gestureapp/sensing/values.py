@@ -64,7 +64,21 @@ class CounterJump:
     now: int
 
 
-DecoderEvent = Frame | Garbage | CounterGap | CounterJump
+@dataclass(frozen=True, slots=True)
+class Identity:
+    """What the sensor calls itself; it stays the same whatever port it is on."""
+
+    name: str
+
+
+@dataclass(frozen=True, slots=True)
+class Battery:
+    """How full the sensor says its battery is. ``percent``: 0 to 100."""
+
+    percent: float
+
+
+DecoderEvent = Frame | Garbage | CounterGap | CounterJump | Identity | Battery
 
 
 @dataclass(frozen=True, slots=True)
@@ -81,7 +95,7 @@ class Disconnected:
     reason: str
 
 
-SensorEvent = Garbage | CounterGap | CounterJump | Connected | Disconnected
+SensorEvent = Garbage | CounterGap | CounterJump | Identity | Battery | Connected | Disconnected
 """What a sensor's reader tells besides samples."""
 
 
@@ -128,6 +142,9 @@ class StreamHealth:
         n_samples: Valid samples since the start.
         n_bad: Unreadable lines and impossible values since the start.
         n_lost: Frames missing by the running number since the start.
+        jitter_s: Standard deviation of the times between two arrivals, over the last two seconds.
+        identity: What the sensor calls itself; empty when it does not.
+        battery_percent: What it says of its battery, 0 to 100; None when it says nothing.
     """
 
     side: Side
@@ -142,6 +159,9 @@ class StreamHealth:
     n_samples: int
     n_bad: int
     n_lost: int
+    jitter_s: float = 0.0
+    identity: str = ""
+    battery_percent: float | None = None
 
     @property
     def is_ok(self) -> bool:

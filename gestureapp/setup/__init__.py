@@ -1,0 +1,1 @@
+"""Setup: from a box of sensors to a cell that is ready."""

@@ -1,0 +1,437 @@
+"""What setting up hands to the window: pictures of sensors, calibration, robot and people."""
+
+from dataclasses import dataclass, field
+from enum import Enum
+
+from gestureapp.sensing.values import Side, StreamHealth
+from gestureapp.settings_check import SettingsFinding
+
+
+class Check(Enum):
+    """How a test ended; the value is the word on the screen."""
+
+    NOT_RUN = "not run"
+    RUNNING = "running"
+    PASSED = "passed"
+    FAILED = "failed"
+
+
+@dataclass(frozen=True, slots=True)
+class Outcome:
+    """One test's end.
+
+    Attributes:
+        check: Which.
+        text: What was found, with figures; why it failed and the remedy.
+        wall_s: When it ended, seconds since the epoch; 0 before that.
+    """
+
+    check: Check = Check.NOT_RUN
+    text: str = ""
+    wall_s: float = 0.0
+
+
+@dataclass(frozen=True, slots=True)
+class PortChoice:
+    """A port of this machine that a sensor may be on.
+
+    Attributes:
+        url: What stands in the settings when it is chosen.
+        name: What a person calls it: a Bluetooth name, a USB product; never only a number.
+        sensor_id: What is behind it, as far as the system tells: it stays the same when the port's
+            number changes. Empty when the system does not know.
+        is_bluetooth: A Bluetooth serial port.
+        trouble: Why it cannot be opened now, in words; empty when it can, or nobody has tried.
+    """
+
+    url: str
+    name: str
+    sensor_id: str = ""
+    is_bluetooth: bool = False
+    trouble: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class SensorCard:
+    """One arm's sensor.
+
+    Attributes:
+        side: Which arm.
+        port: As in the settings; empty when none is chosen.
+        protocol: As in the settings.
+        sensor_id: What the calibration is kept under.
+        name: What a person calls the sensor.
+        health: Of its stream, with rate, jitter, worst gap, lost and bad frames, battery.
+        advice: What to try, in order of likelihood, while no data come; empty when they do.
+        bad_bytes: The newest bytes that were no frame, as a person can read them; empty when none.
+        calibration: How it was calibrated and when, in words; or that it was not.
+        level: The last level check, in words.
+        problem: Why it must not be armed with: not calibrated, out of date, not level, swapped,
+            link too slow for the trip level. Empty when nothing is against it.
+        remedy: What to do about that.
+    """
+
+    side: Side
+    port: str
+    protocol: str
+    sensor_id: str
+    name: str
+    health: StreamHealth
+    advice: tuple[str, ...] = ()
+    bad_bytes: str = ""
+    calibration: str = "not calibrated"
+    level: str = ""
+    problem: str = ""
+    remedy: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class FoundSensor:
+    """Something that sends, found by trying the ports.
+
+    Attributes:
+        port: Where.
+        protocol: What it speaks, or empty when bytes came that nobody can read.
+        rate_hz: How fast, roughly.
+        text: In words, for a list.
+    """
+
+    port: PortChoice
+    protocol: str
+    rate_hz: float
+    text: str
+
+
+@dataclass(frozen=True, slots=True)
+class FindingView:
+    """Looking for sensors on all ports.
+
+    Attributes:
+        is_on: It is under way.
+        sentence: What is going on, or what came of it.
+        found: So far.
+    """
+
+    is_on: bool = False
+    sentence: str = ""
+    found: tuple[FoundSensor, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class ShakeView:
+    """Assigning by shaking.
+
+    Attributes:
+        is_on: It is under way.
+        sentence: ``Shake the sensor on your LEFT arm``, or what came of it.
+        left_shake: How strongly what is now the left sensor moves, 0 to 1.
+        right_shake: The same for the right one.
+    """
+
+    is_on: bool = False
+    sentence: str = ""
+    left_shake: float = 0.0
+    right_shake: float = 0.0
+
+
+@dataclass(frozen=True, slots=True)
+class LinkTestView:
+    """The link test of one sensor.
+
+    Attributes:
+        side: Whose; None before the first.
+        outcome: Passed when the link carries the trip level that is set, failed when it does not.
+        elapsed_s: So far, of ``total_s``.
+        total_s: How long it takes.
+        rate_hz: Measured.
+        jitter_s: Standard deviation of the times between two arrivals.
+        worst_gap_s: Longest time between two arrivals.
+        n_lost: Frames missing by the running number.
+        n_bad: Unreadable ones.
+        histogram: Times between arrivals: upper end of the class in s, and how many.
+        lowest_trip_s: The lowest trip level this link can carry; NaN before the end.
+        set_trip_s: The one that is set.
+    """
+
+    side: Side | None = None
+    outcome: Outcome = field(default_factory=Outcome)
+    elapsed_s: float = 0.0
+    total_s: float = 30.0
+    rate_hz: float = 0.0
+    jitter_s: float = 0.0
+    worst_gap_s: float = 0.0
+    n_lost: int = 0
+    n_bad: int = 0
+    histogram: tuple[tuple[float, int], ...] = ()
+    lowest_trip_s: float = float("nan")
+    set_trip_s: float = 0.0
+
+
+class Position(Enum):
+    """The six positions of the calibration, by the axis that points up; value: drawing's name."""
+
+    Z_UP = "z-up"
+    Z_DOWN = "z-down"
+    X_UP = "x-up"
+    X_DOWN = "x-down"
+    Y_UP = "y-up"
+    Y_DOWN = "y-down"
+
+
+class PositionState(Enum):
+    """Where a position stands; the value is the word on the screen."""
+
+    MISSING = "missing"
+    HOLD_STILL = "hold still"
+    DONE = "done"
+
+
+@dataclass(frozen=True, slots=True)
+class PositionView:
+    """One position of the calibration. ``progress`` is 0 to 1, of the time to be held still."""
+
+    position: Position
+    state: PositionState = PositionState.MISSING
+    progress: float = 0.0
+
+
+@dataclass(frozen=True, slots=True)
+class CalibrationView:
+    """The calibration of one sensor.
+
+    Attributes:
+        side: Whose; None when none is under way or done.
+        is_on: It is under way; its sensor cannot be armed with meanwhile.
+        sentence: What to do now ("Lay the sensor on its back and let go"), or why it began anew.
+        positions: All six.
+        wanted: The position to take now; any other that is missing is taken, too.
+        before_mg: Distance from 1 g, root of the mean square over the positions, as it came.
+        after_mg: The same after the calibration; NaN before the end. Worst of the positions in
+            ``worst_mg``.
+        worst_mg: See above.
+        verdict: In words: good, not flat, noisy, a position taken twice.
+        outcome: Passed: it is kept. Failed: it is not, and why.
+    """
+
+    side: Side | None = None
+    is_on: bool = False
+    sentence: str = ""
+    positions: tuple[PositionView, ...] = ()
+    wanted: Position | None = None
+    before_mg: float = float("nan")
+    after_mg: float = float("nan")
+    worst_mg: float = float("nan")
+    verdict: str = ""
+    outcome: Outcome = field(default_factory=Outcome)
+
+
+@dataclass(frozen=True, slots=True)
+class LevelView:
+    """The level check of one sensor, 2 s on something level.
+
+    Attributes:
+        side: Whose; None before the first.
+        outcome: Passed, or failed because of what.
+        progress: 0 to 1.
+        off_deg: How far from level it read.
+        off_mg: How far from 1 g.
+    """
+
+    side: Side | None = None
+    outcome: Outcome = field(default_factory=Outcome)
+    progress: float = 0.0
+    off_deg: float = float("nan")
+    off_mg: float = float("nan")
+
+
+@dataclass(frozen=True, slots=True)
+class PosturesView:
+    """The left arm's postures of the person.
+
+    Attributes:
+        person: Whose; empty when nobody is chosen.
+        is_on: Recording is under way.
+        sentence: What to do now, or what came of it.
+        progress: 0 to 1, of the posture being recorded.
+        is_stop_done: The stop posture is recorded.
+        is_start_done: The start posture is.
+        between_deg: Angle between the two; NaN before both are.
+        margin_deg: What is left of it when both are left as far as the settings allow.
+        least_margin_deg: Less cannot be armed with.
+        outcome: Passed: kept. Failed: why not.
+        wall_s: When they were recorded; 0 when the built-in ones are used.
+    """
+
+    person: str = ""
+    is_on: bool = False
+    sentence: str = ""
+    progress: float = 0.0
+    is_stop_done: bool = False
+    is_start_done: bool = False
+    between_deg: float = float("nan")
+    margin_deg: float = float("nan")
+    least_margin_deg: float = 5.0
+    outcome: Outcome = field(default_factory=Outcome)
+    wall_s: float = 0.0
+
+
+@dataclass(frozen=True, slots=True)
+class RobotRow:
+    """One line of the connection test: what was asked, and what the controller said."""
+
+    name: str
+    outcome: Outcome
+
+
+@dataclass(frozen=True, slots=True)
+class RobotCard:
+    """The robot.
+
+    Attributes:
+        address: ``HOST:PORT``; empty when none is set.
+        is_connected: The line is open.
+        text: One line on it.
+        rows: The read-only connection test: address, banner, status bits spelled out, position,
+            alarms, tool, whether the tool is inside the field.
+        stop_test: The last stop test: press to standstill, distance run on, date.
+    """
+
+    address: str = ""
+    is_connected: bool = False
+    text: str = ""
+    rows: tuple[RobotRow, ...] = ()
+    stop_test: Outcome = field(default_factory=Outcome)
+
+
+class StopTestPhase(Enum):
+    """Where a stop test is."""
+
+    IDLE = "idle"
+    ARMING = "arming"
+    MOVING = "moving"
+    STOPPING = "stopping"
+    DONE = "done"
+
+
+@dataclass(frozen=True, slots=True)
+class StopTestView:
+    """The stop test: 20 mm slowly, press STOP.
+
+    Attributes:
+        phase: Where it is.
+        sentence: What to do now, or what came of it.
+        why_not: What stands against beginning one; empty when nothing does.
+        took_ms: From the press to standstill read back; NaN before.
+        ran_on_mm: Distance from the press to standstill; NaN before.
+    """
+
+    phase: StopTestPhase = StopTestPhase.IDLE
+    sentence: str = ""
+    why_not: str = ""
+    took_ms: float = float("nan")
+    ran_on_mm: float = float("nan")
+
+
+@dataclass(frozen=True, slots=True)
+class SettingRow:
+    """One setting as the window shows it.
+
+    Attributes:
+        name: Dotted, ``robot.speed_mm_s``.
+        about: What it means, one paragraph.
+        value: As it is used; what a settings file would hold.
+        unit: Empty when it has none.
+        allowed: The range or the choices, in words; empty when anything goes.
+        origin: Where the value comes from: ``built-in``, or a file with its line, or ``--config``.
+        is_locked: It bears on motion, and the PIN has not been given.
+    """
+
+    name: str
+    about: str
+    value: object
+    unit: str
+    allowed: str
+    origin: str
+    is_locked: bool
+
+
+@dataclass(frozen=True, slots=True)
+class LockView:
+    """The site's PIN before settings that bear on motion.
+
+    Attributes:
+        has_pin: One is set.
+        is_open: It has been given, or there is none.
+        text: What happened last: wrong PIN, wait, opened until.
+    """
+
+    has_pin: bool = False
+    is_open: bool = True
+    text: str = ""
+
+
+class Handedness(Enum):
+    """Which hand shows the gestures; the value is the word on the screen."""
+
+    RIGHT = "right-handed"
+    LEFT = "left-handed"
+
+
+@dataclass(frozen=True, slots=True)
+class PersonRow:
+    """Somebody who has a folder here.
+
+    Attributes:
+        name: Theirs.
+        is_chosen: Their model and postures are used.
+        handedness: Theirs.
+        n_takes: Good takes of all gestures.
+        model: Their model in words, or that there is none.
+        postures: Their left arm's postures in words, or that the built-in ones are used.
+    """
+
+    name: str
+    is_chosen: bool
+    handedness: Handedness
+    n_takes: int
+    model: str
+    postures: str
+
+
+@dataclass(frozen=True, slots=True)
+class SetupSnapshot:
+    """Setting up, at one moment.
+
+    Attributes:
+        t_s: When, monotonic clock.
+        ports: Of this machine, newest look.
+        left: The left arm's sensor.
+        right: The right arm's.
+        robot: The robot.
+        finding: Looking for sensors.
+        shake: Assigning by shaking.
+        link_test: The last or present one.
+        calibration: The last or present one.
+        level: The last or present one.
+        postures: The chosen person's.
+        stop_test: The last or present one.
+        lock: The PIN.
+        findings: What is wrong in the settings files.
+        trouble: What keeps all of this from working; empty when nothing does.
+    """
+
+    t_s: float
+    left: SensorCard
+    right: SensorCard
+    robot: RobotCard = field(default_factory=RobotCard)
+    ports: tuple[PortChoice, ...] = ()
+    finding: FindingView = field(default_factory=FindingView)
+    shake: ShakeView = field(default_factory=ShakeView)
+    link_test: LinkTestView = field(default_factory=LinkTestView)
+    calibration: CalibrationView = field(default_factory=CalibrationView)
+    level: LevelView = field(default_factory=LevelView)
+    postures: PosturesView = field(default_factory=PosturesView)
+    stop_test: StopTestView = field(default_factory=StopTestView)
+    lock: LockView = field(default_factory=LockView)
+    findings: tuple[SettingsFinding, ...] = ()
+    trouble: str = ""
