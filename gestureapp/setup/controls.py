@@ -86,6 +86,9 @@ class SetupControls(Protocol):
     def settings(self) -> tuple[SettingRow, ...]:
         """Every setting with value, meaning, range and origin, in the order of the file."""
 
+    def check_settings(self, changes: Mapping[str, object]) -> Mapping[str, str]:
+        """What ``change_settings`` would say to these; nothing is changed, and no file touched."""
+
     def change_settings(self, changes: Mapping[str, object]) -> Mapping[str, str]:
         """Change these, write them to the user's file, and use them once nothing may move.
 

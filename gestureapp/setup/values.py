@@ -344,6 +344,7 @@ class SettingRow:
         allowed: The range or the choices, in words; empty when anything goes.
         origin: Where the value comes from: ``built-in``, or a file with its line, or ``--config``.
         is_locked: It bears on motion, and the PIN has not been given.
+        choices: What it may be, where that is one of a few words; empty where it is not.
     """
 
     name: str
@@ -353,6 +354,7 @@ class SettingRow:
     allowed: str
     origin: str
     is_locked: bool
+    choices: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
