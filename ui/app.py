@@ -26,6 +26,7 @@ from gestureapp.cell.controls import CellControls
 from gestureapp.cell.last_time import LastTime
 from gestureapp.clock import monotonic
 from gestureapp.guided.controls import GuidedControls, TrainerControls
+from gestureapp.setup.controls import SetupControls
 from gestureapp.window_port import Driver
 from gestureapp.worker import Worker
 from ui.hands import Hands
@@ -57,6 +58,7 @@ def run_window(
     last_time: LastTime | None = None,
     guided: GuidedControls | None = None,
     trainer: TrainerControls | None = None,
+    setup: SetupControls | None = None,
 ) -> int:
     """Show the cell until the window is closed; then the cell is shut down.
 
@@ -71,6 +73,7 @@ def run_window(
         last_time: What the guardian did when no window could show it.
         guided: Records and tries takes; without it and a trainer there is no page for training.
         trainer: Trains the model.
+        setup: Sensors, calibration, robot, settings, people; without it there is no page for them.
 
     Returns:
         The exit code: 0.
@@ -79,7 +82,7 @@ def run_window(
     app = _application()
     Theme(app)
     try:
-        window = MainWindow(cell, virtual, guided=guided, trainer=trainer)
+        window = MainWindow(cell, virtual, guided=guided, trainer=trainer, setup=setup)
         try:
             with _hooks(cell, window):
                 _fit(window)

@@ -12,6 +12,7 @@ from gestureapp.cell.last_time import LastTime
 from gestureapp.cell.snapshot import CellState, Snapshot
 from gestureapp.clock import Clock, monotonic
 from gestureapp.guided.controls import GuidedControls, TrainerControls
+from gestureapp.setup.controls import SetupControls
 from ui.alarm_bars import AlarmBars
 from ui.last_time_bar import LastTimeBar
 from ui.nav_rail import NavRail, Place
@@ -19,10 +20,11 @@ from ui.notice_bar import NoticeBar
 from ui.notice_row import NoticeRow
 from ui.operate_page import OperatePage, framed
 from ui.pages import PageStack, scrolling
+from ui.setup_page import SetupPage
 from ui.status_strip import StatusStrip
+from ui.step_state import place_barrier
 from ui.stop_slab import StopKeys, StopSlab
 from ui.train_page import TrainPage
-from ui.train_words import training_barrier
 from ui.virtual_operator import VirtualOperator, VirtualOperatorPanel
 
 log = logging.getLogger(__name__)
@@ -54,6 +56,7 @@ class MainWindow(QMainWindow):
         clock: Clock = monotonic,
         guided: GuidedControls | None = None,
         trainer: TrainerControls | None = None,
+        setup: SetupControls | None = None,
         parent: QWidget | None = None,
     ) -> None:
         super().__init__(parent)
@@ -69,10 +72,13 @@ class MainWindow(QMainWindow):
         self._train = None
         if guided is not None and trainer is not None:
             self._train = TrainPage(cell, guided, trainer)
+        self._setup = SetupPage(cell, setup) if setup is not None else None
         self._notice = NoticeBar("trainNotice")
         self._stopped = NoticeBar("stoppedNotice")
         self._pages = PageStack("pages")
-        self._rail = NavRail((Place.OPERATE,) if self._train is None else tuple(Place))
+        pages = (self._operate, self._train, self._setup)
+        self._places = {place: page for place, page in zip(Place, pages, strict=True) if page}
+        self._rail = NavRail(tuple(self._places))
         self._slab = StopSlab()
         self._virtual = VirtualOperatorPanel(virtual) if virtual is not None else None
         self._lay_out()
@@ -106,21 +112,20 @@ class MainWindow(QMainWindow):
         self._cell.gui_tick()
 
     def go_to(self, place: Place) -> None:
-        """Open another page. While the training is in sight nothing can be armed.
+        """Open another page. While the training or the setup is in sight nothing can be armed.
 
-        Its entry on the rail is closed while the robot is not at rest.
+        Their entries on the rail are closed while the robot is not at rest.
         """
-        if self._train is None or place is self._place:
+        if place not in self._places or place is self._place:
             return
-        self._place = place
-        is_training = place is Place.TRAIN
-        if not is_training:
-            self._train.leave()
-            self._notice.show_text("")
-            self._stopped.show_text("")
-        self._cell.hold_for_training(is_training)
+        left, self._place = self._place, place
+        self._leave(left)
+        if place is Place.TRAIN:
+            self._cell.hold_for_training(True)
+        elif place is Place.SETUP and self._setup is not None:
+            self._setup.enter()
         self._rail.show_place(place)
-        page = self._train if is_training else self._operate
+        page = self._places[place]
         self._pages.setCurrentWidget(page)
         page.setFocus()  # else Space would press whatever Qt hands the focus to
         self.poll()
@@ -156,14 +161,29 @@ class MainWindow(QMainWindow):
     def _show(self, snapshot: Snapshot) -> None:
         self._bars.show_unconfirmed(snapshot.is_stop_unconfirmed)
         self._strip.show_snapshot(snapshot)
-        self._rail.show_note(Place.TRAIN, training_barrier(snapshot))
-        if self._train is not None and self._place is Place.TRAIN:
+        for place in (Place.TRAIN, Place.SETUP):
+            self._rail.show_note(place, place_barrier(snapshot))
+        if self._place is Place.TRAIN and self._train is not None:
             self._train.show_snapshot(snapshot)
             self._notice.show_text(self._train.notice)
-            is_stopped = snapshot.state is CellState.STOPPED
-            self._stopped.show_text(snapshot.sentence if is_stopped else "")
+        elif self._place is Place.SETUP and self._setup is not None:
+            self._setup.show_snapshot(snapshot)
+            self._notice.show_text(self._setup.notice)
         else:
             self._operate.show_snapshot(snapshot)
+            return
+        is_stopped = snapshot.state is CellState.STOPPED
+        self._stopped.show_text(snapshot.sentence if is_stopped else "")
+
+    def _leave(self, place: Place) -> None:
+        """What was under way on a page ends with it, and so does its hold on arming."""
+        if place is Place.TRAIN and self._train is not None:
+            self._train.leave()
+            self._cell.hold_for_training(False)
+        elif place is Place.SETUP and self._setup is not None:
+            self._setup.leave()
+        self._notice.show_text("")
+        self._stopped.show_text("")
 
     def _connect(self) -> None:
         self._slab.button.pressed.connect(self.stop)
@@ -181,9 +201,8 @@ class MainWindow(QMainWindow):
     def _lay_out(self) -> None:
         framed(self._strip)
         framed(self._rail)
-        self._pages.addWidget(self._operate)
-        if self._train is not None:
-            self._pages.addWidget(self._train)
+        for page in self._places.values():
+            self._pages.addWidget(page)
         middle = QHBoxLayout()
         middle.addWidget(self._rail)
         middle.addWidget(self._pages, 1)

@@ -66,8 +66,13 @@ class Mark(QWidget):
         painter.setRenderHint(QPainter.RenderHint.Antialiasing)
         inset = self._size_px * 0.1
         area = QRectF(self.rect()).adjusted(inset, inset, -inset, -inset)
-        _SHAPES[self.level](painter, area, level_colour(self.level, colours_of(self.palette())))
+        paint_mark(painter, area, self.level, colours_of(self.palette()))
         painter.end()
+
+
+def paint_mark(painter: QPainter, area: QRectF, level: Level, colours: Colours) -> None:
+    """Draw a level's shape into a square area, in its colour."""
+    _SHAPES[level](painter, area, level_colour(level, colours))
 
 
 def _stroke(colour: QColor, area: QRectF) -> QPen:

@@ -21,6 +21,7 @@ class Place(Enum):
 
     OPERATE = "Operate"
     TRAIN = "Train"
+    SETUP = "Setup"
 
 
 class NavButton(QAbstractButton):
@@ -154,7 +155,19 @@ def _draw_hand(painter: QPainter, area: QRectF) -> None:
         painter.drawArc(arc, 5 * 16, 80 * 16)
 
 
+def _draw_sliders(painter: QPainter, area: QRectF) -> None:
+    """Three sliders, each at another place."""
+    x, y, s = area.left(), area.top(), area.width()
+    for row, place in ((0.15, 0.68), (0.50, 0.30), (0.85, 0.58)):
+        knob, middle = s * 0.10, y + row * s
+        at = x + place * s
+        painter.drawLine(QPointF(x, middle), QPointF(at - knob, middle))
+        painter.drawLine(QPointF(at + knob, middle), QPointF(x + s, middle))
+        painter.drawEllipse(QPointF(at, middle), knob, knob)
+
+
 _ICONS: dict[Place, Callable[[QPainter, QRectF], None]] = {
     Place.OPERATE: _draw_robot,
     Place.TRAIN: _draw_hand,
+    Place.SETUP: _draw_sliders,
 }

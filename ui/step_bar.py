@@ -1,28 +1,33 @@
-"""The steps of the training across the top of its page, each with how far it is."""
+"""The steps of a page across its top, each with how far it is."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
+from enum import Enum
+from typing import TypeVar
 
 from PySide6.QtCore import QRectF, QSize, Qt, Signal
 from PySide6.QtGui import QColor, QFont, QPainter, QPaintEvent, QPen
 from PySide6.QtWidgets import QAbstractButton, QButtonGroup, QHBoxLayout, QSizePolicy, QWidget
 
+from ui.marks import Level, paint_mark
+from ui.step_state import StepState
 from ui.theme import SMALL_PX, colours_of
-from ui.train_words import Step, StepState
 
+_Step = TypeVar("_Step", bound=Enum)
 _HEIGHT_PX = 46
 _NUMBER_PX = 24
+_MARK_PX = 20
 
 
 class StepButton(QAbstractButton):
-    """Number or tick, the step's word, and below it how far it is. GUI thread only."""
+    """Number, tick or triangle, the step's word, and below it how far it is. GUI thread only."""
 
-    def __init__(self, step: Step, number: int, parent: QWidget | None = None) -> None:
+    def __init__(self, name: str, word: str, number: int, parent: QWidget | None = None) -> None:
         super().__init__(parent)
-        self._step, self._number = step, number
+        self._number = number
         self._state = StepState(0, 0, "")
-        self.setObjectName(f"step{step.value}")
-        self.setText(step.value)
-        self.setAccessibleName(step.value)
+        self.setObjectName(name)
+        self.setText(word)
+        self.setAccessibleName(word)
         self.setCheckable(True)
         self.setFocusPolicy(Qt.FocusPolicy.TabFocus)
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
@@ -38,7 +43,7 @@ class StepButton(QAbstractButton):
             return
         self._state = state
         self.setEnabled(not state.barrier)
-        words = f"{self._step.value}: {state.barrier or state.text}"
+        words = f"{self.text()}: {state.barrier or state.text}"
         self.setAccessibleName(words)
         self.setToolTip(words)
         self.update()
@@ -85,6 +90,11 @@ class StepButton(QAbstractButton):
     def _draw_number(self, painter: QPainter) -> None:
         colours = colours_of(self.palette())
         painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+        if self._state.is_problem:
+            top = (self.height() - _MARK_PX) / 2 - 1
+            paint_mark(painter, QRectF(12, top, _MARK_PX, _MARK_PX), Level.ATTENTION, colours)
+            painter.setRenderHint(QPainter.RenderHint.Antialiasing, False)
+            return
         disc = QRectF(10, (self.height() - _NUMBER_PX) / 2 - 1, _NUMBER_PX, _NUMBER_PX)
         is_done = self._state.is_done
         colour = QColor(colours.text if is_done else colours.muted)
@@ -104,38 +114,46 @@ class StepButton(QAbstractButton):
 
 
 class StepBar(QWidget):
-    """All six steps, always in sight. GUI thread only.
+    """All steps, always in sight; the first is the one to begin with. GUI thread only.
+
+    Args:
+        name: Its objectName.
+        steps: In their order; the value of each is its word.
+        prefix: Of the buttons' objectNames, before the word.
+        parent: Qt's.
 
     Signals:
-        chosen: A person wants to go to this ``Step``.
+        chosen: A person wants to go to this step.
     """
 
-    chosen = Signal(Step)
+    chosen = Signal(Enum)
 
-    def __init__(self, parent: QWidget | None = None) -> None:
+    def __init__(
+        self, name: str, steps: Sequence[Enum], prefix: str, parent: QWidget | None = None
+    ) -> None:
         super().__init__(parent)
-        self.setObjectName("stepBar")
+        self.setObjectName(name)
         layout = QHBoxLayout(self)
         layout.setContentsMargins(0, 0, 0, 0)
         layout.setSpacing(4)
         group = QButtonGroup(self)
-        self._buttons: dict[Step, StepButton] = {}
-        for number, step in enumerate(Step, start=1):
-            button = StepButton(step, number)
+        self._buttons: dict[Enum, StepButton] = {}
+        for number, step in enumerate(steps, start=1):
+            button = StepButton(f"{prefix}{step.value}", step.value, number)
             button.clicked.connect(self._chooser(step))
             group.addButton(button)
             layout.addWidget(button)
             self._buttons[step] = button
-        self.show_step(Step.PERSON)
+        self.show_step(steps[0])
 
-    def show_step(self, step: Step) -> None:
+    def show_step(self, step: Enum) -> None:
         """Mark the step in sight."""
         self._buttons[step].setChecked(True)
 
-    def show_states(self, states: Mapping[Step, StepState]) -> None:
+    def show_states(self, states: Mapping[_Step, StepState]) -> None:
         """Show how far each step is."""
         for step, state in states.items():
             self._buttons[step].show_state(state)
 
-    def _chooser(self, step: Step) -> Callable[[], None]:
+    def _chooser(self, step: Enum) -> Callable[[], None]:
         return lambda: self.chosen.emit(step)

@@ -56,7 +56,7 @@ class TrainPage(QWidget):
         """The person has not said what begins a take."""
         self._is_entered = False
         """The step in sight has come into sight since the last moment shown."""
-        self._bar = StepBar()
+        self._bar = StepBar("stepBar", tuple(Step), "step")
         self._built: dict[Step, _Built] = {}
         self._stack = PageStack("trainSteps")
         layout = QVBoxLayout(self)

@@ -1,9 +1,8 @@
 """Guided training in words: how far each step is, what stands against it. Pure; no widget."""
 
-from dataclasses import dataclass
 from enum import Enum
 
-from gestureapp.cell.snapshot import CellState, Snapshot
+from gestureapp.cell.snapshot import Snapshot
 from gestureapp.gestures import Kind, gesture
 from gestureapp.guided.values import (
     GestureProgress,
@@ -15,9 +14,8 @@ from gestureapp.guided.values import (
 )
 from gestureapp.recording.take_values import Take, Verdict
 from gestureapp.sensing.values import ArmPosture, StreamHealth
+from ui.step_state import StepState
 
-REST_STATES = (CellState.NOT_READY, CellState.READY, CellState.ARMED, CellState.STOPPED)
-"""In these nothing moves; opening the training takes the permission back."""
 _SEEN = (Quality.FAIR, Quality.GOOD)
 _TELLING = (Phase.WAITING, Phase.TAKING, Phase.PAUSED, Phase.SENSOR_LOST)
 _SHORT = 14
@@ -34,37 +32,6 @@ class Step(Enum):
     CHECK = "Check"
     TRAIN = "Train"
     TRY = "Try"
-
-
-@dataclass(frozen=True, slots=True)
-class StepState:
-    """How far a step is.
-
-    Attributes:
-        done: So many.
-        total: Of so many; 0 while there is nothing to count.
-        text: Both in words, or why there are none.
-        barrier: Why it cannot be entered; empty when it can.
-    """
-
-    done: int
-    total: int
-    text: str
-    barrier: str = ""
-
-    @property
-    def is_done(self) -> bool:
-        """Nothing is missing."""
-        return 0 < self.total <= self.done
-
-
-def training_barrier(snapshot: Snapshot) -> str:
-    """Why the training cannot be opened now; empty when it can."""
-    if snapshot.is_stop_unconfirmed:
-        return "not before the stop is confirmed"
-    if snapshot.state not in REST_STATES or snapshot.robot.is_moving:
-        return "not while the robot moves"
-    return ""
 
 
 def step_states(

@@ -17,6 +17,13 @@ class SetupControls(Protocol):
     def snapshot(self) -> SetupSnapshot:
         """The newest frozen picture; polled at the display rate."""
 
+    def look(self, is_open: bool) -> None:
+        """Setting up is in sight, or no longer. While it is, nothing can be armed.
+
+        The cell's ``hold_arming`` is called before this returns, in the caller's thread: what a
+        window holds arming for after that is not let go again by this.
+        """
+
     # Sensors.
 
     def protocols(self) -> tuple[tuple[str, str], ...]:

@@ -51,6 +51,17 @@ class PortChoice:
     trouble: str = ""
 
 
+class Remedy(Enum):
+    """What a window can do about a problem at one press; the value is the word on the button."""
+
+    NONE = ""
+    CALIBRATE = "Calibrate"
+    CHECK_LEVEL = "Check level"
+    SWAP = "Swap sensors"
+    TEST_LINK = "Test link"
+    FIND = "Find sensors"
+
+
 @dataclass(frozen=True, slots=True)
 class SensorCard:
     """One arm's sensor.
@@ -69,6 +80,7 @@ class SensorCard:
         problem: Why it must not be armed with: not calibrated, out of date, not level, swapped,
             link too slow for the trip level. Empty when nothing is against it.
         remedy: What to do about that.
+        act: The button that does it; ``NONE`` when no button can.
     """
 
     side: Side
@@ -83,6 +95,7 @@ class SensorCard:
     level: str = ""
     problem: str = ""
     remedy: str = ""
+    act: Remedy = Remedy.NONE
 
 
 @dataclass(frozen=True, slots=True)

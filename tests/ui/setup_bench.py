@@ -1,0 +1,328 @@
+"""Setting up without its threads: every state of it for a window, every wish noted."""
+
+from collections.abc import Mapping
+from dataclasses import replace
+
+from PySide6.QtCore import Qt
+from PySide6.QtTest import QTest
+from PySide6.QtWidgets import QAbstractButton, QApplication, QLabel, QWidget
+
+from gestureapp.sensing.values import LinkState, Side, StreamHealth
+from gestureapp.setup.values import (
+    CalibrationView,
+    FindingView,
+    Handedness,
+    LevelView,
+    LinkTestView,
+    LockView,
+    PersonRow,
+    PortChoice,
+    Position,
+    PositionState,
+    PositionView,
+    PosturesView,
+    RobotCard,
+    SensorCard,
+    SettingRow,
+    SetupSnapshot,
+    ShakeView,
+    StopTestPhase,
+    StopTestView,
+)
+from ui.main_window import MainWindow
+
+NOW_S = 1000.0
+LEFT_PORT = PortChoice("/dev/rfcomm0", "BWT901CL left", "98:D3:31:F4:07:A2", is_bluetooth=True)
+RIGHT_PORT = PortChoice("/dev/rfcomm1", "BWT901CL right", "98:D3:31:F4:11:5C", is_bluetooth=True)
+BUSY_PORT = PortChoice(
+    "/dev/ttyUSB0", "FT232R USB UART", "A50285BI", trouble="in use by another program"
+)
+PROTOCOL_ROWS = (
+    ("csv", "one line a sample, in g: ax,ay,az or n,ax,ay,az"),
+    ("adxl330", "ADXL330 at 3.0 V, one line a sample, in 10-bit counts: n,x,y,z"),
+    ("witmotion", "Bluetooth sensors that send 0x55 0x51 frames"),
+    ("binary", "our own frames, with running number and battery"),
+)
+
+
+def stream(side: Side, link: LinkState = LinkState.RECEIVING) -> StreamHealth:
+    """A sensor's stream in one of the four states."""
+    is_fine = link is LinkState.RECEIVING
+    reasons = {
+        LinkState.NOT_CONNECTED: "/dev/rfcomm0 does not exist: switch the sensor on and pair it",
+        LinkState.NO_DATA: "connected, but silent: is the sensor switched on?",
+        LinkState.WRONG_DATA: "what comes is no csv line: choose another protocol",
+        LinkState.RECEIVING: "",
+    }
+    return StreamHealth(
+        side=side,
+        link=link,
+        is_alive=is_fine,
+        is_valid=is_fine,
+        is_freq_ok=is_fine,
+        reason=reasons[link],
+        age_s=0.004 if is_fine else float("inf"),
+        rate_hz=100.2 if is_fine else 0.0,
+        worst_gap_s=0.034 if is_fine else 0.0,
+        n_samples=12000 if is_fine else 0,
+        n_bad=2 if is_fine else 0,
+        n_lost=17 if is_fine else 0,
+        jitter_s=0.0062 if is_fine else 0.0,
+        identity=f"BWT901CL {side.value}" if is_fine else "",
+        battery_percent=87.0 if is_fine else None,
+    )
+
+
+def card(side: Side, link: LinkState = LinkState.RECEIVING, **changes: object) -> SensorCard:
+    """A sensor that nothing is against, or one in another state."""
+    port = LEFT_PORT if side is Side.LEFT else RIGHT_PORT
+    base = SensorCard(
+        side=side,
+        port=port.url,
+        protocol="witmotion",
+        sensor_id=port.sensor_id,
+        name=port.name,
+        health=stream(side, link),
+        calibration="calibrated 2026-11-22, within 4 mg",
+        level="level checked today 07:58, 0.4° off",
+    )
+    return replace(base, **changes)
+
+
+def fine() -> SetupSnapshot:
+    """Everything is set up."""
+    return SetupSnapshot(
+        t_s=NOW_S,
+        left=card(Side.LEFT),
+        right=card(Side.RIGHT),
+        robot=RobotCard("192.168.1.31:80", True, "NX100 at 192.168.1.31:80"),
+        ports=(LEFT_PORT, RIGHT_PORT, BUSY_PORT),
+        postures=PosturesView(
+            person="Ana",
+            is_stop_done=True,
+            is_start_done=True,
+            between_deg=84.0,
+            margin_deg=34.0,
+            wall_s=1.79e9,
+        ),
+    )
+
+
+def six(n_done: int, progress: float = 0.4) -> tuple[PositionView, ...]:
+    """The first so many positions are done, and the next is being held."""
+    states = (
+        [PositionState.DONE] * n_done + [PositionState.HOLD_STILL] + [PositionState.MISSING] * 6
+    )
+    return tuple(
+        PositionView(position, state, progress if state is PositionState.HOLD_STILL else 0.0)
+        for position, state in zip(Position, states, strict=False)
+    )
+
+
+class FakeSetup:
+    """Implements ``SetupControls``: the test sets ``shown`` and reads ``calls``.
+
+    Attributes:
+        shown: What ``snapshot`` gives.
+        calls: Every wish, with its arguments, in order.
+        rows: What ``settings`` gives; ``change_settings`` changes them.
+        folk: What ``people`` gives.
+        refused: What ``change_settings`` says; then nothing is changed.
+        answer: What every call that says why not says.
+    """
+
+    def __init__(self, shown: SetupSnapshot | None = None) -> None:
+        self.shown = fine() if shown is None else shown
+        self.calls: list[str] = []
+        self.rows: tuple[SettingRow, ...] = ()
+        self.folk: tuple[PersonRow, ...] = ()
+        self.refused: dict[str, str] = {}
+        self.answer = ""
+        self.is_open = False
+
+    def show(self, **changes: object) -> None:
+        """Change some of what is shown."""
+        self.shown = replace(self.shown, **changes)
+
+    def snapshot(self) -> SetupSnapshot:
+        return self.shown
+
+    def look(self, is_open: bool) -> None:
+        self.is_open = is_open
+        self.calls.append("setup open" if is_open else "setup closed")
+
+    def protocols(self) -> tuple[tuple[str, str], ...]:
+        return PROTOCOL_ROWS
+
+    def choose_port(self, side: Side, port: str, protocol: str) -> None:
+        self.calls.append(f"choose_port {side.value} {port} {protocol}")
+        name = "left" if side is Side.LEFT else "right"
+        self.show(**{name: replace(getattr(self.shown, name), port=port, protocol=protocol)})
+
+    def find_sensors(self) -> None:
+        self.calls.append("find_sensors")
+        self.show(finding=FindingView(True, "Listening on /dev/rfcomm0…"))
+
+    def stop_finding(self) -> None:
+        self.calls.append("stop_finding")
+        self.show(finding=replace(self.shown.finding, is_on=False))
+
+    def begin_shake(self) -> None:
+        self.calls.append("begin_shake")
+        self.show(shake=ShakeView(True, "Shake the sensor on your LEFT arm"))
+
+    def end_shake(self) -> None:
+        self.calls.append("end_shake")
+        self.show(shake=ShakeView())
+
+    def swap_sensors(self) -> None:
+        self.calls.append("swap_sensors")
+
+    def begin_link_test(self, side: Side) -> None:
+        self.calls.append(f"begin_link_test {side.value}")
+
+    def end_link_test(self) -> None:
+        self.calls.append("end_link_test")
+        self.show(link_test=LinkTestView())
+
+    def begin_calibration(self, side: Side) -> None:
+        self.calls.append(f"begin_calibration {side.value}")
+        self.show(
+            calibration=CalibrationView(
+                side, True, "Lay the sensor on its back and let go", six(0, 0.0), Position.Z_UP
+            )
+        )
+
+    def end_calibration(self) -> None:
+        self.calls.append("end_calibration")
+        self.show(calibration=CalibrationView())
+
+    def begin_level_check(self, side: Side) -> None:
+        self.calls.append(f"begin_level_check {side.value}")
+        self.show(level=LevelView(side))
+
+    def begin_postures(self) -> None:
+        self.calls.append("begin_postures")
+        self.show(postures=PosturesView(self.shown.postures.person, True, "Hold STOP"))
+
+    def end_postures(self) -> None:
+        self.calls.append("end_postures")
+        self.show(postures=replace(self.shown.postures, is_on=False))
+
+    def forget_postures(self) -> None:
+        self.calls.append("forget_postures")
+
+    def choose_robot(self, host: str, port: int) -> str:
+        self.calls.append(f"choose_robot {host} {port}")
+        return self.answer
+
+    def begin_stop_test(self, label: str) -> None:
+        self.calls.append(f"begin_stop_test {label}")
+        self.show(stop_test=StopTestView(StopTestPhase.ARMING, "Keep holding"))
+
+    def release_stop_test(self) -> None:
+        self.calls.append("release_stop_test")
+
+    def settings(self) -> tuple[SettingRow, ...]:
+        return self.rows
+
+    def change_settings(self, changes: Mapping[str, object]) -> Mapping[str, str]:
+        self.calls.append(f"change_settings {dict(changes)}")
+        if self.refused:
+            return self.refused
+        self.rows = tuple(
+            replace(row, value=changes[row.name], origin="settings.toml, line 1")
+            if row.name in changes
+            else row
+            for row in self.rows
+        )
+        return {}
+
+    def open_lock(self, pin: str) -> None:
+        self.calls.append(f"open_lock {pin}")
+        self.show(lock=LockView(has_pin=True, is_open=True, text="open for ten minutes"))
+
+    def close_lock(self) -> None:
+        self.calls.append("close_lock")
+        self.show(lock=LockView(has_pin=True, is_open=False))
+
+    def set_pin(self, pin: str) -> str:
+        self.calls.append(f"set_pin {pin}")
+        return self.answer
+
+    def people(self) -> tuple[PersonRow, ...]:
+        return self.folk
+
+    def choose_person(self, name: str) -> str:
+        self.calls.append(f"choose_person {name}")
+        if not self.answer:
+            self.folk = tuple(replace(row, is_chosen=row.name == name) for row in self.folk)
+        return self.answer
+
+    def set_handedness(self, name: str, handedness: Handedness) -> str:
+        self.calls.append(f"set_handedness {name} {handedness.value}")
+        if not self.answer:
+            self.folk = tuple(
+                replace(row, handedness=handedness) if row.name == name else row
+                for row in self.folk
+            )
+        return self.answer
+
+
+class SetupRoom:
+    """The window at its setup page.
+
+    Attributes:
+        window: Shown; polled only here.
+        setup: What it shows and asks.
+        cell: The cell it belongs to.
+    """
+
+    def __init__(self, cell, operator=None) -> None:
+        self.cell = cell
+        self.setup = FakeSetup()
+        self.window = MainWindow(cell, operator, lambda: NOW_S, setup=self.setup)
+        self.window.resize(1366, 768)
+        self.window.show()
+        self.look()
+
+    def look(self) -> None:
+        """The window's timer comes round."""
+        self.window.poll()
+        QApplication.processEvents()
+
+    def show(self, **changes: object) -> None:
+        """Setting up goes on to another moment, and the window sees it."""
+        self.setup.show(**changes)
+        self.look()
+
+    def enter(self, step: str = "Sensors") -> None:
+        """Go to a step of the setup page."""
+        if not self.button("navSetup").isChecked():
+            self.press("navSetup")
+        self.press(f"setupStep{step}")
+        self.setup.calls.clear()
+
+    def press(self, name: str) -> None:
+        """Press a button that is in sight and can be pressed."""
+        found = self.button(name)
+        assert found.isVisible(), f"{name} is not in sight"
+        assert found.isEnabled(), f"{name} cannot be pressed"
+        QTest.mouseClick(found, Qt.MouseButton.LeftButton)
+        self.look()
+
+    def button(self, name: str) -> QAbstractButton:
+        found = self.window.findChild(QAbstractButton, name)
+        assert found is not None, name
+        return found
+
+    def widget(self, name: str) -> QWidget:
+        found = self.window.findChild(QWidget, name)
+        assert found is not None, name
+        return found
+
+    def text(self, name: str) -> str:
+        """What a label says; empty while it is out of sight."""
+        label = self.window.findChild(QLabel, name)
+        assert label is not None, name
+        return label.text() if label.isVisible() else ""
