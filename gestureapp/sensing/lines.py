@@ -1,4 +1,4 @@
-"""Bytes in, lines out: cuts a stream at CR, LF or CRLF, whatever pieces it comes in. Pure."""
+"""Bytes in, lines out: cuts a stream at its line ends, whatever pieces it comes in. Pure."""
 
 import re
 
@@ -10,7 +10,7 @@ MAX_LINE_BYTES = 128
 FIRST_BYTES = 32
 """How many of the dropped bytes ``Garbage`` keeps."""
 
-_LINE_END = re.compile(rb"[\r\n]")
+LINE_END = re.compile(rb"[\r\n]")
 
 
 class LineSplitter:
@@ -19,9 +19,15 @@ class LineSplitter:
     CR and LF each end a line, so CRLF leaves an empty line behind, which is given too: it tells
     that a line has ended. The result depends on the bytes only, never on how they were split into
     calls. Owned by one decoder.
+
+    Args:
+        end: One byte that ends a line.
+        unit: What lies between two ends, in words.
     """
 
-    def __init__(self) -> None:
+    def __init__(self, end: re.Pattern[bytes] = LINE_END, unit: str = "line") -> None:
+        self._end = end
+        self._unit = unit
         self._pending = bytearray()
         self._is_overlong = False
 
@@ -32,7 +38,7 @@ class LineSplitter:
         endless one is told about although it never ends.
         """
         lines: list[bytes | Garbage] = []
-        first, *rest = _LINE_END.split(data)
+        first, *rest = self._end.split(data)
         self._take(first, lines)
         for piece in rest:
             lines.append(self._end_line())
@@ -51,7 +57,7 @@ class LineSplitter:
         start = 0
         while len(self._pending) - start >= MAX_LINE_BYTES:
             first = bytes(self._pending[start : start + FIRST_BYTES])
-            reason = f"expected a line end within {MAX_LINE_BYTES} bytes"
+            reason = f"expected a {self._unit} end within {MAX_LINE_BYTES} bytes"
             lines.append(Garbage(MAX_LINE_BYTES, first, reason))
             start += MAX_LINE_BYTES
             self._is_overlong = True
@@ -63,5 +69,6 @@ class LineSplitter:
         self._pending.clear()
         self._is_overlong = False
         if is_rest:
-            return Garbage(len(line), line[:FIRST_BYTES], "the rest of a line that was too long")
+            reason = f"the rest of a {self._unit} that was too long"
+            return Garbage(len(line), line[:FIRST_BYTES], reason)
         return line

@@ -1,12 +1,16 @@
-"""The sensors' protocols by name. Pure."""
+"""The sensors' protocols by name: four that are built in, and what plug-ins add."""
 
 import difflib
+import functools
+import logging
 from collections.abc import Callable
 from dataclasses import dataclass
 
 from gestureapp.errors import ConfigError
-from gestureapp.sensing import adxl330, csv_lines
+from gestureapp.sensing import adxl330, binary, csv_lines, witmotion
 from gestureapp.sensing.decoder import Decoder, LineDecoder
+
+log = logging.getLogger(__name__)
 
 
 @dataclass(frozen=True, slots=True)
@@ -28,7 +32,7 @@ class Protocol:
     limit_g: float
 
 
-PROTOCOLS: tuple[Protocol, ...] = (
+BUILT_IN: tuple[Protocol, ...] = (
     Protocol(
         name="csv",
         words="one line a sample, in g: ax,ay,az or n,ax,ay,az",
@@ -43,9 +47,34 @@ PROTOCOLS: tuple[Protocol, ...] = (
         to_nominal_g=adxl330.adxl330_to_g,
         limit_g=adxl330.LIMIT_G,
     ),
+    Protocol(
+        name="witmotion",
+        words="WitMotion sensors at +/-16 g: frames of 11 bytes with a checksum",
+        new_decoder=witmotion.WitmotionDecoder,
+        to_nominal_g=witmotion.witmotion_to_g,
+        limit_g=witmotion.LIMIT_G,
+    ),
+    Protocol(
+        name="binary",
+        words="frames with CRC, running number, name and battery, as of resources/firmware",
+        new_decoder=binary.BinaryDecoder,
+        to_nominal_g=binary.binary_to_g,
+        limit_g=binary.LIMIT_G,
+    ),
 )
 
-_BY_NAME = {known.name: known for known in PROTOCOLS}
+
+def protocols() -> tuple[Protocol, ...]:
+    """Every protocol there is: the built-in ones, then those of the plug-ins by name.
+
+    The first call imports the plug-ins; any thread.
+    """
+    return _known()[0]
+
+
+def plug_in_findings() -> tuple[str, ...]:
+    """What was wrong with plug-ins, one line each with cause and remedy; they are left out."""
+    return _known()[1]
 
 
 def protocol(name: str) -> Protocol:
@@ -54,10 +83,24 @@ def protocol(name: str) -> Protocol:
     Raises:
         ConfigError: there is none; the text names the known ones and the likeliest.
     """
-    found = _BY_NAME.get(name)
+    by_name = {known.name: known for known in BUILT_IN}
+    if name not in by_name:  # nothing foreign is imported for what is built in
+        by_name = {known.name: known for known in protocols()}
+    found = by_name.get(name)
     if found is not None:
         return found
-    near = difflib.get_close_matches(name.strip().lower(), _BY_NAME, n=1)
+    near = difflib.get_close_matches(name.strip().lower(), by_name, n=1)
     hint = f"did you mean {near[0]!r}? " if near else ""
-    known = ", ".join(sorted(_BY_NAME))
+    known = ", ".join(sorted(by_name))
     raise ConfigError("sensor.protocol", name, f"no such protocol; {hint}known are: {known}")
+
+
+@functools.cache
+def _known() -> tuple[tuple[Protocol, ...], tuple[str, ...]]:
+    # Late: plug-ins import this module, and most cells have none.
+    from gestureapp.sensing.plug_ins import installed_plug_ins
+
+    added, findings = installed_plug_ins({known.name for known in BUILT_IN})
+    for finding in findings:
+        log.warning("%s", finding)
+    return (*BUILT_IN, *added), findings

@@ -1,5 +1,6 @@
-"""Rate and worst gap of a stream over sliding spans, cheap per sample. Pure: times come in."""
+"""Rate, jitter and worst gap of a stream over sliding spans, cheap per sample. Pure."""
 
+import math
 from collections import deque
 
 RATE_SPAN_S = 2.0
@@ -13,21 +14,28 @@ _MAX_TIMES = 4096
 
 
 class RateMeter:
-    """Counts what came within the last ``RATE_SPAN_S``. Amortised O(1). Owned by one thread."""
+    """Counts what came within the last ``RATE_SPAN_S``. Amortised O(1). Owned by one thread.
+
+    What a radio gives in one burst arrived at one time: the times between are 0, and jitter.
+    """
 
     def __init__(self) -> None:
-        self._times: deque[float] = deque(maxlen=_MAX_TIMES)
+        self._times: deque[float] = deque()
+        self._sum_squares_s2 = 0.0  # of the times between neighbours in the deque
         self._first_s: float | None = None
 
     def restart(self) -> None:
         """Measure from the next sample on, as after a new connection."""
         self._times.clear()
+        self._sum_squares_s2 = 0.0
         self._first_s = None
 
     def add(self, t_s: float) -> None:
         """A sample was received at ``t_s``; times must not decrease."""
         if self._first_s is None:
             self._first_s = t_s
+        if self._times:
+            self._sum_squares_s2 += (t_s - self._times[-1]) ** 2
         self._times.append(t_s)
         self._forget(t_s)
 
@@ -42,9 +50,25 @@ class RateMeter:
         self._forget(now_s)
         return len(self._times) / RATE_SPAN_S
 
+    def jitter_s(self, now_s: float) -> float:
+        """Standard deviation of the times between samples of the last span; 0 while unknown."""
+        if not self.is_measured(now_s):
+            return 0.0
+        self._forget(now_s)
+        n = len(self._times) - 1
+        if n < 2:
+            return 0.0
+        mean_s = (self._times[-1] - self._times[0]) / n
+        return math.sqrt(max(0.0, self._sum_squares_s2 / n - mean_s**2))
+
     def _forget(self, now_s: float) -> None:
-        while self._times and self._times[0] <= now_s - RATE_SPAN_S:
-            self._times.popleft()
+        times = self._times
+        while times and (times[0] <= now_s - RATE_SPAN_S or len(times) > _MAX_TIMES):
+            gone_s = times.popleft()
+            if times:
+                self._sum_squares_s2 -= (times[0] - gone_s) ** 2
+        if len(times) < 2:
+            self._sum_squares_s2 = 0.0  # rounding does not pile up
 
 
 class WorstGap:

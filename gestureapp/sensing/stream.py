@@ -4,11 +4,13 @@ import math
 
 from gestureapp.sensing.rate import RATE_SPAN_S, RateMeter, WorstGap
 from gestureapp.sensing.values import (
+    Battery,
     Connected,
     CounterGap,
     CounterJump,
     Disconnected,
     Garbage,
+    Identity,
     Impossible,
     LinkState,
     Repeated,
@@ -76,6 +78,8 @@ class StreamTracker:
         self._garbage_s = -math.inf
         self._is_garbage_newest = False
         self._jump = ""
+        self._identity = ""
+        self._battery_percent: float | None = None
         self._n_samples = 0
         self._n_bad = 0
         self._n_lost = 0
@@ -89,6 +93,10 @@ class StreamTracker:
                 self.gap(t_s, event)
             case CounterJump():
                 self._jumped(f"running number jumped from {event.before} to {event.now}")
+            case Identity():
+                self._identity = event.name
+            case Battery():
+                self._battery_percent = event.percent
             case Connected():
                 self.connected(t_s)
             case Disconnected():
@@ -127,8 +135,10 @@ class StreamTracker:
         self._rate.restart()
 
     def connected(self, t_s: float) -> None:
-        """The port is open; the rate is measured anew."""
+        """The port is open; the rate is measured anew, and it may be another sensor."""
         self._jump = ""
+        self._identity = ""
+        self._battery_percent = None
         self._is_connected = True
         self._connected_s = t_s
         self._newest_s = None
@@ -168,6 +178,9 @@ class StreamTracker:
             n_samples=self._n_samples,
             n_bad=self._n_bad,
             n_lost=self._n_lost,
+            jitter_s=self._rate.jitter_s(now_s),
+            identity=self._identity,
+            battery_percent=self._battery_percent,
         )
 
     def _link(self, now_s: float, age_s: float) -> tuple[LinkState, str]:

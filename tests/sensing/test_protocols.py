@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 from gestureapp.config import SensorSettings
 from gestureapp.errors import ConfigError
 from gestureapp.sensing.calibration import accel_of, calibrate
-from gestureapp.sensing.protocols import PROTOCOLS, protocol
+from gestureapp.sensing.protocols import BUILT_IN, protocol
 from gestureapp.sensing.values import Frame, Garbage, Impossible
 
 NOMINAL = SensorSettings()
@@ -16,7 +16,7 @@ axis_g = st.floats(-4, 4)
 gain = st.floats(0.5, 2)
 
 
-@pytest.mark.parametrize("known", PROTOCOLS, ids=lambda known: known.name)
+@pytest.mark.parametrize("known", BUILT_IN, ids=lambda known: known.name)
 def test_each_protocol_is_found_by_its_name(known):
     assert protocol(known.name) is known
     assert known.words
@@ -27,7 +27,9 @@ def test_each_connection_gets_a_decoder_of_its_own():
 
 
 def test_unknown_protocol_names_the_likeliest_and_all_known():
-    with pytest.raises(ConfigError, match=r"did you mean 'adxl330'\? known are: adxl330, csv"):
+    with pytest.raises(
+        ConfigError, match=r"did you mean 'adxl330'\? known are: adxl330, binary, csv"
+    ):
         protocol("ADXL-330")
 
 

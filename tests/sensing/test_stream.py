@@ -2,6 +2,7 @@
 
 import itertools
 import math
+import statistics
 
 import pytest
 from hypothesis import given
@@ -10,11 +11,13 @@ from hypothesis import strategies as st
 from gestureapp.sensing.rate import GAP_SPAN_S, RateMeter, WorstGap
 from gestureapp.sensing.stream import StreamTracker
 from gestureapp.sensing.values import (
+    Battery,
     Connected,
     CounterGap,
     CounterJump,
     Disconnected,
     Garbage,
+    Identity,
     Impossible,
     LinkState,
     Repeated,
@@ -392,6 +395,66 @@ def test_rate_is_what_a_plain_count_finds(steps: list[float], wait_s: float):
     now_s = times[-1] + wait_s
     recent = [t for t in times if t > now_s - 2.0]
     assert meter.rate_hz(now_s) == (len(recent) / 2.0 if now_s >= 2.0 else 0.0)
+
+
+@given(st.lists(st.floats(0, 0.5), min_size=1, max_size=60), st.floats(0, 3))
+def test_jitter_is_what_a_plain_standard_deviation_finds(steps: list[float], wait_s: float):
+    meter, times = RateMeter(), [0.0]
+    meter.add(0.0)
+    for step in steps:
+        times.append(times[-1] + step)
+        meter.add(times[-1])
+    now_s = times[-1] + wait_s
+    recent = [t for t in times if t > now_s - 2.0]
+    between = [b - a for a, b in itertools.pairwise(recent)]
+    is_known = now_s >= 2.0 and len(between) >= 2
+    expected_s = statistics.pstdev(between) if is_known else 0.0
+    assert meter.jitter_s(now_s) == pytest.approx(expected_s, abs=1e-7)
+
+
+def test_an_even_stream_has_no_jitter_after_an_hour_of_uneven_time():
+    meter = RateMeter()
+    for n in range(360_000):
+        meter.add(50_000 + n * 0.01 + 0.004 * (n % 3))
+    for n in range(360_000, 360_300):
+        meter.add(50_000 + n * 0.01)
+    assert meter.jitter_s(50_000 + 360_299 * 0.01) == pytest.approx(0, abs=1e-6)
+
+
+def test_a_stream_faster_than_can_be_counted_keeps_its_jitter_right():
+    meter = RateMeter()
+    for n in range(30_000):
+        meter.add(n * 0.0001 + 0.00005 * (n % 2))
+    assert meter.jitter_s(2.9999) == pytest.approx(0.00005, rel=0.01)
+
+
+def test_the_jitter_of_a_radio_shows_its_bursts():
+    even, bursts = Bench(), Bench()
+    even.stream(2.5)
+    for _ in range(50):
+        bursts.wait(0.05)
+        for _ in range(5):
+            bursts.sample()
+    assert even.health.jitter_s == pytest.approx(0, abs=1e-6)
+    assert bursts.health.jitter_s == pytest.approx(0.02, abs=0.001)  # four times 0, once 50 ms
+
+
+def test_jitter_is_not_claimed_before_the_rate_is():
+    bench = Bench()
+    bench.stream(1.9)
+    assert bench.health.jitter_s == 0
+
+
+def test_what_a_sensor_says_of_itself_is_shown_until_another_connection():
+    bench = Bench()
+    assert (bench.health.identity, bench.health.battery_percent) == ("", None)
+    bench.tracker.event(bench.now_s, Identity("arm 7"))
+    bench.tracker.event(bench.now_s, Battery(80.0))
+    assert (bench.health.identity, bench.health.battery_percent) == ("arm 7", 80.0)
+    bench.tracker.event(bench.now_s, Disconnected("gone"))
+    assert bench.health.identity == "arm 7"
+    bench.tracker.event(bench.now_s, Connected("x"))
+    assert (bench.health.identity, bench.health.battery_percent) == ("", None)
 
 
 _ACTIONS = st.sampled_from(["sample", "same", "bad", "gap", "lost", "open", "wait", "long"])
