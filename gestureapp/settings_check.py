@@ -5,7 +5,7 @@ Pure. What is wrong comes out as findings, all of them at once; nothing is raise
 
 import ipaddress
 import math
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, fields, is_dataclass
 from pathlib import Path
 from typing import Any, Final
@@ -23,26 +23,19 @@ from gestureapp.config import (
 )
 from gestureapp.robot.address import is_loopback
 from gestureapp.robot.nx100 import NETWORK_INPUTS
+from gestureapp.settings_narrowing import NARROWER, why_wider
+from gestureapp.settings_words import shown, unit_text
 
 MAX_KEEP_OUTS: Final = 8
 MAX_NAME_CHARS: Final = 30
 """Of a keep-out: it stands in the window beside its box."""
 
-_OTHER_TABLES: Final = ("left", "right", "person", "training", "schema")
+LOCK_TABLE: Final = "lock"
+PIN_KEY: Final = "lock.pin_hash"
+"""What a settings file has of the site's PIN; no setting, as it is shown and recorded nowhere."""
+
+_OTHER_TABLES: Final = ("left", "right", "person", "training", "schema", LOCK_TABLE)
 """Nothing in them limits motion."""
-
-_SHOWN_CHARS: Final = 60
-
-UNITS: Final[Mapping[str, str]] = {
-    "_mm_s": "mm/s",
-    "_deg_s": "deg/s",
-    "_mm": "mm",
-    "_deg": "deg",
-    "_hz": "Hz",
-    "_s": "s",
-    "_g": "g",
-}
-"""By the end of a setting's name, longest first."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -73,12 +66,15 @@ class SettingsFinding:
         text: What is wrong, what is allowed, and the remedy or what is used instead.
         file: Where it stands; None when it is in no file.
         line: Line in that file, from 1; None when it is in no file, or could not be told.
+        cause: The text without the remedy, for beside the field of a form; empty where the text has
+            none.
     """
 
     setting: str
     text: str
     file: Path | None = None
     line: int | None = None
+    cause: str = ""
 
     def __str__(self) -> str:
         line = "" if self.line is None else f", line {self.line}"
@@ -159,56 +155,6 @@ MARGINS: Final[Mapping[str, str]] = {
 """By the first of a pair: more than two of these lie between, or there is no room to move."""
 
 
-def _at_most(new: Any, below: Any) -> bool:  # noqa: ANN401 - a number of the setting's type
-    return bool(new <= below)
-
-
-def _at_least(new: Any, below: Any) -> bool:  # noqa: ANN401
-    return bool(new >= below)
-
-
-def _the_same_or_none(new: Any, below: Any) -> bool:  # noqa: ANN401
-    return below in (0, new)
-
-
-def _inside(new: Any, below: Any) -> bool:  # noqa: ANN401 - a low and a high value
-    return bool(below[0] <= new[0] and new[1] <= below[1])
-
-
-def _with_all(new: Any, below: Any) -> bool:  # noqa: ANN401 - keep-outs
-    return set(below) <= set(new)
-
-
-NARROWER: Final[Mapping[str, tuple[Callable[[Any, Any], bool], str]]] = {
-    "site.trip_level_s": (_at_most, "at most"),
-    "site.control_limit_s": (_at_most, "at most"),
-    "site.gui_limit_s": (_at_most, "at most"),
-    "site.stop_on_right_lost": (_at_least, "nothing but"),
-    "robot.ext_radius_mm": (_at_most, "at most"),
-    "robot.int_radius_mm": (_at_least, "at least"),
-    "robot.margin_mm": (_at_least, "at least"),
-    "robot.margin_deg": (_at_least, "at least"),
-    "robot.floor_mm": (_at_least, "at least"),
-    "robot.ceiling_mm": (_at_most, "at most"),
-    "robot.column_radius_mm": (_at_least, "at least"),
-    "robot.column_top_mm": (_at_least, "at least"),
-    "robot.keep_outs": (_with_all, "more than"),
-    "robot.speed_mm_s": (_at_most, "at most"),
-    "robot.speed_deg_s": (_at_most, "at most"),
-    "robot.supervision_input": (_the_same_or_none, "nothing but"),
-    "robot.supervision_hz": (_at_least, "at least"),
-    "robot.rx_range_deg": (_inside, "a range inside"),
-    "robot.ry_range_deg": (_inside, "a range inside"),
-    "robot.rz_range_deg": (_inside, "a range inside"),
-    **{f"joints.{axis}_range_deg": (_inside, "a range inside") for axis in "slurbt"},
-    "joints.margin_deg": (_at_least, "at least"),
-    "joints.wrist_margin_deg": (_at_least, "at least"),
-    "joints.elbow_margin_deg": (_at_least, "at least"),
-    "joints.shoulder_margin_mm": (_at_least, "at least"),
-}
-"""What limits motion: a later layer may set it narrower than the site, never wider."""
-
-
 def check_settings(settings: Settings, site: Settings | None = None) -> list[SettingsFinding]:
     """Everything that is wrong with these settings.
 
@@ -256,7 +202,7 @@ def why_out_of_range(owner: type, name: str, value: object) -> str:
         return why_no_keep_outs(value, allowed)
     numbers = value if isinstance(value, tuple) else (value,)
     if not all(isinstance(n, int | float) and math.isfinite(n) and n in allowed for n in numbers):
-        return f"{shown(value)} is not allowed; allowed is {allowed}{_unit_text(name)}"
+        return f"{shown(value)} is not allowed; allowed is {allowed}{unit_text(name)}"
     if name.endswith("_range_deg") and not numbers[0] < numbers[1]:
         return f"{shown(value)} is no range; the first number must be below the second"
     return ""
@@ -338,48 +284,6 @@ def why_not_below(values: Mapping[str, Any], low: str, high: str) -> str:
     margin = MARGINS.get(low)
     if margin is None or not values[low] + 2 * values[margin] >= values[high]:
         return ""
-    between = f"more than 2 times {margin} = {shown(values[margin])}{_unit_text(margin)}"
+    between = f"more than 2 times {margin} = {shown(values[margin])}{unit_text(margin)}"
     text = f"{shown(values[low])} leaves no room to {high} = {shown(values[high])}"
     return f"{text}; {between} must lie between them"
-
-
-def why_wider(name: str, new: object, limit: object) -> str:
-    """Why a later layer may not set this value; empty when it may."""
-    if name not in NARROWER:
-        return ""
-    is_narrower, words = NARROWER[name]
-    if is_narrower(new, limit):
-        return ""
-    unit = _unit_text(name)
-    return f"{shown(new)} is wider than the site allows; allowed is {words} {shown(limit)}{unit}"
-
-
-def unit_of(name: str) -> str:
-    """The unit in a setting's name; empty where it has none."""
-    return next((unit for ending, unit in UNITS.items() if name.endswith(ending)), "")
-
-
-def shown(value: object) -> str:
-    """A value as it may stand in a line: short, and without line breaks."""
-    if isinstance(value, tuple | list):
-        items = ["[…]" if isinstance(item, list) else shown(item) for item in value[:5]]
-        return f"[{_joined(items)}]"
-    if isinstance(value, dict):
-        return "a table"
-    if isinstance(value, bool):
-        return str(value).lower()
-    text = repr(value.name if isinstance(value, KeepOutSettings) else value)
-    return text if len(text) <= _SHOWN_CHARS else f"{text[: _SHOWN_CHARS - 3]}…"
-
-
-def _joined(items: list[str]) -> str:
-    """As many whole items as fit, four at most, and whether there are more."""
-    kept = items[:4]
-    while len(kept) > 1 and len(", ".join(kept)) > _SHOWN_CHARS:
-        kept.pop()
-    return ", ".join(kept) + ", …" * (len(kept) < len(items))
-
-
-def _unit_text(name: str) -> str:
-    unit = unit_of(name)
-    return f" {unit}" if unit else ""

@@ -4,17 +4,26 @@ import inspect
 import json
 import re
 import textwrap
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import fields, is_dataclass
 from enum import Enum
 from pathlib import Path
 from typing import Final
 
-from gestureapp.config import SCHEMA_VERSION, KeepOutSettings, Settings
-from gestureapp.settings_check import RANGES, unit_of
+from gestureapp.config import SCHEMA_VERSION, KeepOutSettings, RobotSettings, Settings
+from gestureapp.robot.nx100 import NETWORK_INPUTS
+from gestureapp.settings_check import RANGES
+from gestureapp.settings_words import unit_of
 
 _ATTRIBUTE: Final = re.compile(r"^    (\w+): ", re.MULTILINE)
 _COMMENT_COLUMNS: Final = 96
+_ALLOWED: Final[Mapping[tuple[type, str], str]] = {
+    (RobotSettings, "host"): "an IP address, or empty for none",
+    (RobotSettings, "supervision_input"): (
+        f"0, or a multiple of 10, {NETWORK_INPUTS[0]} to {NETWORK_INPUTS[-1]}"
+    ),
+}
+"""Where a range does not say it all."""
 
 
 def default_settings_text() -> str:
@@ -35,27 +44,54 @@ def settings_text(settings: Settings) -> str:
     for table in fields(settings):
         values = getattr(settings, table.name)
         if is_dataclass(values) and not isinstance(values, type):
-            lines += ["", *_comment(_summary(type(values))), f"[{table.name}]"]
+            lines += ["", *comment_on_table(type(values)), f"[{table.name}]"]
             for setting in fields(values):
-                lines += _comment(_about(type(values), setting.name))
+                lines += comment_on_key(type(values), setting.name)
                 lines.append(f"{setting.name} = {_toml(getattr(values, setting.name))}")
     return "\n".join(lines) + "\n"
 
 
-def _about(owner: type, name: str) -> str:
+def about(owner: type, name: str) -> str:
+    """What a setting means, in one paragraph; empty when docstrings are stripped."""
+    return _descriptions(owner).get(name, "")
+
+
+def allowed(owner: type, name: str) -> str:
+    """What a setting may be, in words, without the unit; empty when anything goes."""
+    if words := _ALLOWED.get((owner, name)):
+        return words
+    if found := choices(owner, name):
+        return " or ".join(found)
+    return str(RANGES.get((owner, name), ""))
+
+
+def choices(owner: type, name: str) -> tuple[str, ...]:
+    """The words that a setting may be; empty where it is none of a few words."""
+    default = next(field.default for field in fields(owner) if field.name == name)
+    return tuple(member.value for member in type(default)) if isinstance(default, Enum) else ()
+
+
+def _comment_on(owner: type, name: str) -> str:
     """What a setting means, its unit, range and choices, in one paragraph."""
-    parts = [_descriptions(owner).get(name, "")]
-    unit, allowed = unit_of(name), RANGES.get((owner, name))
-    if allowed is not None:
-        parts.append(f"Allowed: {allowed}{f' {unit}' if unit else ''}.")
+    parts = [about(owner, name)]
+    unit, within = unit_of(name), RANGES.get((owner, name))
+    if within is not None:
+        parts.append(f"Allowed: {within}{f' {unit}' if unit else ''}.")
     elif unit:
         parts.append(f"In {unit}.")
-    parts += [
-        f"One of: {', '.join(_toml(member) for member in type(field.default))}."
-        for field in fields(owner)
-        if field.name == name and isinstance(field.default, Enum)
-    ]
+    if found := choices(owner, name):
+        parts.append(f"One of: {', '.join(_toml(word) for word in found)}.")
     return " ".join(part for part in parts if part)
+
+
+def comment_on_table(owner: type) -> list[str]:
+    """The comment lines that stand above a table."""
+    return list(_comment(_summary(owner)))
+
+
+def comment_on_key(owner: type, name: str) -> list[str]:
+    """The comment lines that stand above a setting."""
+    return list(_comment(_comment_on(owner, name)))
 
 
 def _summary(owner: type) -> str:

@@ -6,7 +6,8 @@ from dataclasses import replace
 import pytest
 
 from gestureapp.config import RobotSettings, Settings
-from gestureapp.settings_check import NARROWER, PAIRS, RANGES, check_settings, named_values
+from gestureapp.settings_check import PAIRS, RANGES, check_settings, named_values
+from gestureapp.settings_narrowing import NARROWER
 
 
 def test_the_built_in_settings_are_allowed_themselves():

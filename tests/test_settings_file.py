@@ -18,13 +18,14 @@ from gestureapp.config import (
     TrainingSettings,
 )
 from gestureapp.robot.nx100 import NETWORK_INPUTS
-from gestureapp.settings_check import NARROWER, PAIRS, RANGES, named_values
+from gestureapp.settings_check import PAIRS, RANGES, named_values
 from gestureapp.settings_file import (
     check_settings,
     default_settings_text,
     read_settings,
     settings_text,
 )
+from gestureapp.settings_narrowing import NARROWER
 
 
 @pytest.fixture

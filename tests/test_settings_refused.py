@@ -4,8 +4,9 @@ import pytest
 
 from gestureapp.config import KeepOutSettings, RobotSettings, Settings
 from gestureapp.errors import SettingsRefused
-from gestureapp.settings_check import check_settings, shown
+from gestureapp.settings_check import check_settings
 from gestureapp.settings_file import load_settings, read_settings
+from gestureapp.settings_words import shown
 
 
 @pytest.fixture

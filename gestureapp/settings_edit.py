@@ -1,0 +1,218 @@
+"""Changing a settings file as a careful person would: comments and order stay, nothing gets lost.
+
+The old file is kept among ten backups beside it. The new one is complete in a file of its own
+before it takes the name: after a crash at any moment there is the old file or the new one.
+"""
+
+import datetime
+import time
+import tomllib
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any, Final, cast, get_type_hints
+
+import tomlkit
+from tomlkit.exceptions import TOMLKitError
+from tomlkit.items import AoT, InlineTable, Table
+
+from gestureapp.clock import Clock
+from gestureapp.config import SCHEMA_VERSION, Settings
+from gestureapp.errors import ConfigError, RecordingError
+from gestureapp.recognition.files import mode_of, write_atomically
+from gestureapp.settings_check import LOCK_TABLE
+from gestureapp.settings_source import is_there, parsed, read_bytes, text_of
+from gestureapp.settings_text import comment_on_key, comment_on_table
+from gestureapp.settings_values import plain
+
+BACKUP_FOLDER: Final = "backups"
+N_BACKUPS: Final = 10
+_BOM: Final = b"\xef\xbb\xbf"
+_NEW_FILE: Final = f"schema = {SCHEMA_VERSION}\n"
+_LOCK_COMMENT: Final = (
+    "# The PIN before settings that bear on motion; take this table out to have none."
+)
+
+
+def write_settings(
+    file: Path, changes: Mapping[str, object], wall_clock: Clock = time.time
+) -> None:
+    """Change some values in a settings file, and nothing else.
+
+    Args:
+        file: Which; made, with its folder, when it is not there.
+        changes: By dotted name; as in ``Settings`` or as in the file. None takes the key out.
+        wall_clock: Seconds since the epoch, for the backup's name.
+
+    Raises:
+        ConfigError: the file is damaged, was changed meanwhile, or cannot be written: says why. The
+            file is as it was.
+    """
+    old = read_for_change(file)
+    replace_settings(file, old, edited(file, old, changes), wall_clock)
+
+
+def read_for_change(file: Path) -> bytes | None:
+    """What is in a settings file; None when it is not there.
+
+    Raises:
+        ConfigError: it cannot be read.
+    """
+    return read_bytes(file) if is_there(file) else None
+
+
+def edited(file: Path, old: bytes | None, changes: Mapping[str, object]) -> bytes:
+    """The content of a settings file with these changes in it. Pure.
+
+    Args:
+        file: Its name, for messages.
+        old: Its content; None when it is not there.
+        changes: As for ``write_settings``.
+
+    Raises:
+        ConfigError: it is damaged, or made such that the change cannot be put into it.
+    """
+    text = _NEW_FILE if old is None else text_of(file, old)
+    wanted = parsed(file, text)  # the reader's own parser decides whether the file is damaged
+    values = {name: _as_toml(value) for name, value in changes.items()}
+    try:
+        document = tomlkit.parse(text)
+        for name, value in values.items():
+            _put(document, name, value)
+        new = tomlkit.dumps(document)
+    except (TOMLKitError, TypeError, AttributeError) as error:
+        raise _not_changed(file, str(error)) from error
+    if "\r\n" in text:
+        new = new.replace("\r\n", "\n").replace("\n", "\r\n")
+    for name, value in values.items():
+        _put_plain(wanted, name, value)
+    if _meaning(new) != _without_empty(wanted):
+        raise _not_changed(file, "its tables are laid out in a way this cannot be put into")
+    return (_BOM if old is not None and old.startswith(_BOM) else b"") + new.encode()
+
+
+def replace_settings(
+    file: Path, old: bytes | None, new: bytes, wall_clock: Clock = time.time
+) -> None:
+    """Put new content in the place of what was read before, and keep that as a backup.
+
+    Raises:
+        ConfigError: the file is no longer what was read, or cannot be written. It is as it was.
+    """
+    if new == old:
+        return
+    target = file.resolve()  # behind a link the file itself is replaced, not the link
+    try:
+        target.parent.mkdir(parents=True, exist_ok=True)
+        if old is not None:
+            _keep(target, old, wall_clock())
+        if read_for_change(target) != old:
+            reason = "was changed by another program meanwhile; nothing was written, try again"
+            raise ConfigError("settings file", str(file), reason)
+        write_atomically(target, new)
+    except RecordingError as error:
+        reason = str(error).removeprefix(f"{error.path}: ")
+        raise ConfigError("settings file", str(error.path), reason) from error
+    except OSError as error:
+        where = f" ({error.filename})" if error.filename else ""
+        reason = f"cannot be written: {error.strerror or error}{where}; check the permissions"
+        raise ConfigError("settings file", str(file), reason) from error
+
+
+def _keep(file: Path, content: bytes, wall_s: float) -> None:
+    """Put the content among the backups; the oldest beyond ten go."""
+    folder = file.parent / BACKUP_FOLDER
+    folder.mkdir(exist_ok=True)
+    now = datetime.datetime.fromtimestamp(wall_s, datetime.UTC)
+    stamp = f"{now:%Y%m%dT%H%M%S}.{now.microsecond:06d}Z"
+    write_atomically(folder / f"{file.stem}-{stamp}{file.suffix}", content, mode_of(file))
+    kept = sorted(folder.glob(f"{file.stem}-*Z{file.suffix}"))
+    for oldest in kept[:-N_BACKUPS]:
+        oldest.unlink(missing_ok=True)
+
+
+def _put(document: tomlkit.TOMLDocument, name: str, value: Any) -> None:  # noqa: ANN401 - TOML
+    table_name, _, key = name.partition(".")
+    if value is None:
+        if table_name in document:
+            cast("Any", document[table_name]).pop(key, None)
+        return
+    if table_name not in document:
+        _add_table(document, table_name)
+    table = cast("Any", document[table_name])
+    if key in table and isinstance(table[key], AoT):
+        table.pop(key)
+    has_room = not isinstance(table, InlineTable) and not any(
+        isinstance(item, AoT | Table) for item in table.values()
+    )  # before tables of its own a comment would not stay with its key
+    if key not in table and has_room:
+        for line in _comment_lines(name):
+            table.add(tomlkit.comment(line.removeprefix("# ")))
+    table[key] = _item(value)
+
+
+def _item(value: Any) -> Any:  # noqa: ANN401 - TOML
+    """Boxes stay inside their list, each a table on one line."""
+    if not isinstance(value, list) or not any(isinstance(item, dict) for item in value):
+        return value
+    items = tomlkit.array()
+    for item in value:
+        inline = tomlkit.inline_table()
+        inline.update(item)
+        items.append(inline)
+    return items.multiline(True)
+
+
+def _add_table(document: tomlkit.TOMLDocument, name: str) -> None:
+    document.add(tomlkit.nl())
+    owner = _owner_of(name)
+    for line in [_LOCK_COMMENT] if owner is None else comment_on_table(owner):
+        document.add(tomlkit.comment(line.removeprefix("# ")))
+    document.add(name, tomlkit.table())
+    cast("Any", document[name]).trivia.indent = ""  # right below its comment
+
+
+def _comment_lines(name: str) -> list[str]:
+    table, _, key = name.partition(".")
+    owner = _owner_of(table)
+    return [] if owner is None else comment_on_key(owner, key)
+
+
+def _owner_of(table: str) -> type | None:
+    """The settings class of a table; None for that of the PIN."""
+    return None if table == LOCK_TABLE else cast("type", get_type_hints(Settings)[table])
+
+
+def _as_toml(value: object) -> Any:  # noqa: ANN401 - TOML
+    """A value in TOML's types; None stays None."""
+    if value is None:
+        return None
+    value = plain(value)
+    if isinstance(value, Mapping):
+        return {key: _as_toml(item) for key, item in value.items()}
+    if isinstance(value, list | tuple):
+        return [_as_toml(item) for item in value]
+    return value
+
+
+def _put_plain(wanted: dict[str, Any], name: str, value: Any) -> None:  # noqa: ANN401 - TOML
+    table, _, key = name.partition(".")
+    if value is not None:
+        wanted.setdefault(table, {})[key] = value
+    elif table in wanted:
+        wanted[table].pop(key, None)
+
+
+def _meaning(text: str) -> dict[str, Any] | None:
+    try:
+        return _without_empty(tomllib.loads(text))
+    except ValueError:
+        return None
+
+
+def _without_empty(tables: dict[str, Any]) -> dict[str, Any]:
+    return {name: table for name, table in tables.items() if table != {}}
+
+
+def _not_changed(file: Path, why: str) -> ConfigError:
+    reason = f"cannot be changed here: {why}; change it in an editor"
+    return ConfigError("settings file", str(file), reason)
