@@ -125,7 +125,7 @@ def _add_application(parser: argparse.ArgumentParser) -> None:
 
 
 def _add_simulate(commands: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
-    from gestureapp.simulation import nx100_process
+    from gestureapp.simulation import nx100_process, sensor_process
 
     simulate = commands.add_parser("simulate", help="emulate a sensor or a controller; make takes")
     kinds = simulate.add_subparsers(title="what", metavar="WHAT", required=True)
@@ -135,15 +135,8 @@ def _add_simulate(commands: "argparse._SubParsersAction[argparse.ArgumentParser]
     nx100.set_defaults(run=nx100_process.run)
 
     sensor = kinds.add_parser("sensor", help="a worn accelerometer on TCP")
-    sensor.add_argument("--arm", choices=("left", "right"), required=True)
-    sensor.add_argument("--port", type=int, required=True)
-    sensor.add_argument("--control-port", type=int, help="what the arm does, JSON lines")
-    sensor.add_argument("--protocol", default="csv", help="csv or adxl330")
-    sensor.add_argument("--rate-hz", type=float, default=100.0)
-    sensor.add_argument("--seed", type=int, default=7)
-    sensor.add_argument("--session", type=int, default=2)
-    sensor.add_argument("--exit-with-stdin", action="store_true")
-    sensor.set_defaults(run=_simulate_sensor)
+    sensor_process.add_arguments(sensor)
+    sensor.set_defaults(run=sensor_process.run)
 
     takes = kinds.add_parser("takes", help="takes of simulated people, as NPZ")
     takes.add_argument("out", type=Path, metavar="OUT.npz")
@@ -204,22 +197,6 @@ def _application(options: argparse.Namespace, open_window: "OpenWindow | None") 
         for finding in findings:
             running.cell.tell(str(finding))
         return open_window(running, options.exit_after)
-
-
-def _simulate_sensor(options: argparse.Namespace) -> int:
-    from gestureapp.sensing.values import Side
-    from gestureapp.simulation.sensor import SensorOptions, serve_sensor
-
-    sensor = SensorOptions(
-        side=Side(options.arm),
-        port=options.port,
-        control_port=options.control_port,
-        protocol=options.protocol,
-        rate_hz=options.rate_hz,
-        seed=options.seed,
-        session=options.session,
-    )
-    return serve_sensor(sensor, exit_with_stdin=options.exit_with_stdin)
 
 
 def _simulate_takes(options: argparse.Namespace) -> int:

@@ -22,8 +22,9 @@ from gestureapp.simulation.listening import received
 from gestureapp.simulation.parent import on_end_signals, on_stdin_end
 from gestureapp.simulation.sensor_control import RATE_MAX_HZ, Answer, answer_command
 from gestureapp.simulation.sensor_model import RATE_HZ, SensorModel, Wearer
+from gestureapp.simulation.sensor_radio import DIRECT, Radio, RadioOptions
 from gestureapp.simulation.sensor_stream import StreamPort
-from gestureapp.simulation.sensor_wire import ENCODERS
+from gestureapp.simulation.sensor_wire import COUNTED, ENCODERS, NAME_BYTES_MAX
 from gestureapp.worker import Worker
 
 DEMO_SEED = 7
@@ -41,13 +42,16 @@ class SensorOptions:
         side: Which arm wears it.
         port: TCP port of the stream; 0 picks a free one.
         control_port: TCP port of the control lines; 0 picks a free one, None means there is none.
-        protocol: ``csv`` or ``adxl330``.
+        protocol: ``csv``, ``adxl330``, ``witmotion`` or ``binary``.
         rate_hz: Samples a second, 1 to 2000.
         seed: Who wears it, and the noise.
         session: That person's day; the takes for the demo's model were made on day 1.
         is_practised: Whether that person is a trained operator.
-        has_counter: Whether lines carry a running number.
+        has_counter: Whether lines carry a running number; only ``csv`` can leave it out.
         host: Address to listen on.
+        radio: What is between the sensor and the port.
+        identity: What it calls itself, as far as the protocol can say it; empty for a name by side.
+        battery_percent: What it says of its battery, likewise; None for unknown.
     """
 
     side: Side
@@ -60,6 +64,9 @@ class SensorOptions:
     is_practised: bool = True
     has_counter: bool = True
     host: str = "127.0.0.1"
+    radio: RadioOptions = DIRECT
+    identity: str = ""
+    battery_percent: int | None = 80
 
 
 class SensorEmulator:
@@ -97,7 +104,11 @@ class SensorEmulator:
             options.rate_hz,
             options.has_counter,
             random.Random(options.seed),
+            options.radio.clock_ppm,
+            options.identity or f"emulated {options.side.value}",
+            options.battery_percent,
         )
+        self._radio = Radio(options.radio, random.Random(options.seed))
         side = options.side.value
         with contextlib.ExitStack() as opened:
             self._selector = opened.enter_context(selectors.DefaultSelector())
@@ -165,10 +176,11 @@ class SensorEmulator:
         now_s = self._clock()
         if now_s < due_s:
             return due_s
-        for line in self._model.tick(now_s):
+        sent = self._model.tick(now_s)
+        period_s = self._model.period_s
+        for line in self._radio.carry(now_s, sent, period_s):
             self._stream.send(line)
         self._plug()
-        period_s = self._model.period_s
         missed = int((now_s - due_s) / period_s)
         self._stream.n_overruns += missed
         return now_s + period_s if missed else due_s + period_s
@@ -179,6 +191,8 @@ class SensorEmulator:
         return answer
 
     def _plug(self) -> None:
+        if self._model.is_unplugged:
+            self._radio.clear()
         self._stream.plug(not self._model.is_unplugged)
 
 
@@ -238,8 +252,14 @@ def _check(options: SensorOptions) -> None:
     for name, number in (("seed", options.seed), ("session", options.session)):
         if not 0 <= number < 1 << 32:
             raise ConfigError(name, number, "must be a whole number from 0 to 4294967295")
-    if options.protocol == "adxl330" and not options.has_counter:
-        raise ConfigError("counter", False, "adxl330 always carries a running number; csv need not")
+    if options.protocol in COUNTED and not options.has_counter:
+        text = f"{options.protocol} always carries a running number; csv need not"
+        raise ConfigError("counter", False, text)
+    if not (len(options.identity.encode()) <= NAME_BYTES_MAX and options.identity.isprintable()):
+        raise ConfigError("identity", options.identity, f"at most {NAME_BYTES_MAX} bytes of UTF-8")
+    battery = options.battery_percent
+    if battery is not None and not 0 <= battery <= 100:
+        raise ConfigError("battery", battery, "must be 0 to 100 %")
     for name, port in (("port", options.port), ("control-port", options.control_port or 0)):
         if not 0 <= port <= 65_535:
             raise ConfigError(name, port, "must be 0 to 65535")

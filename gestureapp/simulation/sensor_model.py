@@ -11,7 +11,9 @@ from gestureapp.simulation.sensor_wire import (
     COUNTER_SPAN,
     ENCODERS,
     Accel,
-    cut_line,
+    cut,
+    encode_binary,
+    encode_identity,
     garbage_like,
 )
 
@@ -29,6 +31,9 @@ JUMP = -500
 
 BURST_MAX = 1000
 """Lines kept back at most during a stall that ends in a burst; the radio loses older ones."""
+
+IDENTITY_EVERY_S = 1.0
+"""How often a sensor of the ``binary`` protocol says what it is."""
 
 
 class Verb(Enum):
@@ -138,10 +143,13 @@ class SensorModel:
     Attributes:
         side: Whose sensor.
         wearer: The arm.
-        protocol: ``csv`` or ``adxl330``.
-        rate_hz: Samples a second without fault.
-        has_counter: Whether lines carry the running number.
+        protocol: One of ``ENCODERS``.
+        rate_hz: Samples a second without fault, by the sensor's own clock.
+        has_counter: Whether lines carry the running number; ``csv`` only.
         rng: Chance for garbage and cuts.
+        clock_ppm: How much too slow the sensor's clock is, in millionths; less than 0 is fast.
+        identity: What it calls itself; ``binary`` only.
+        battery_percent: What it says of its battery, None for unknown; ``binary`` only.
         fault: The present one.
         doing: The action begun last, or None.
     """
@@ -152,6 +160,9 @@ class SensorModel:
     rate_hz: float = RATE_HZ
     has_counter: bool = True
     rng: random.Random = field(default_factory=lambda: random.Random(1))
+    clock_ppm: float = 0.0
+    identity: str = ""
+    battery_percent: int | None = None
     fault: Fault = NO_FAULT
     doing: ArmAction | None = None
     _fault_end_s: float | None = None
@@ -165,7 +176,7 @@ class SensorModel:
     def period_s(self) -> float:
         """Time between two samples, under the present fault."""
         slow = self.fault.kind is FaultKind.SLOW
-        return 1.0 / (self.fault.rate_hz if slow else self.rate_hz)
+        return (1.0 + self.clock_ppm * 1e-6) / (self.fault.rate_hz if slow else self.rate_hz)
 
     @property
     def is_unplugged(self) -> bool:
@@ -249,10 +260,21 @@ class SensorModel:
     def _encoded(self, accel_g: Accel) -> Emission:
         kind = self.fault.kind
         number = max(self._counter, 0)
-        data = ENCODERS[self.protocol](number if self.has_counter else None, accel_g)
+        data = self._identified(number) + self._data(number, accel_g)
         line = Emission(data, number, accel_g)
         if kind is FaultKind.GARBAGE:
             return replace(line, data=garbage_like(data, self.rng))
         if kind is FaultKind.TRUNCATED:
-            return replace(line, data=cut_line(data, self.rng))
+            return replace(line, data=cut(self.protocol, data, self.rng))
         return line
+
+    def _data(self, number: int, accel_g: Accel) -> bytes:
+        if self.protocol == "binary" and self.battery_percent is not None:
+            return encode_binary(number, accel_g, self.battery_percent)
+        return ENCODERS[self.protocol](number if self.has_counter else None, accel_g)
+
+    def _identified(self, number: int) -> bytes:
+        """The frame that goes before a sample once a second, of a protocol that has one."""
+        is_due = number % max(1, round(IDENTITY_EVERY_S * self.rate_hz)) == 0
+        has_one = self.protocol == "binary" and self.identity
+        return encode_identity(self.identity) if has_one and is_due else b""

@@ -11,14 +11,23 @@ from gestureapp.sensing.values import DecoderEvent, Frame
 from gestureapp.simulation.sensor_wire import (
     COUNTER_SPAN,
     ENCODERS,
-    cut_line,
+    LINES,
+    cut,
     encode_adxl330,
+    encode_binary,
     encode_csv,
+    encode_identity,
+    encode_witmotion,
     garbage_like,
 )
 
 COUNTERS = st.integers(0, COUNTER_SPAN - 1)
-HALF_STEP_G = {"csv": 0.5e-4, "adxl330": 0.5 * 3.0 / 1024 / 0.3}
+HALF_STEP_G = {
+    "csv": 0.5e-4,
+    "adxl330": 0.5 * 3.0 / 1024 / 0.3,
+    "witmotion": 0.5 / 2048,
+    "binary": 0.5 * 0.0005,
+}
 
 
 def accel(limit_g: float) -> st.SearchStrategy[tuple[float, float, float]]:
@@ -28,7 +37,7 @@ def accel(limit_g: float) -> st.SearchStrategy[tuple[float, float, float]]:
 
 def decoded(name: str, data: bytes) -> list[DecoderEvent]:
     decoder = protocol(name).new_decoder()
-    # The decoder may distrust what comes before the first line end: the stream was joined mid-line.
+    # The decoder may distrust what comes first: the stream was joined in the middle.
     primed = ENCODERS[name](0, (0.0, 0.0, 1.0))
     decoder.feed(primed)
     return [*decoder.feed(data), *decoder.end()]
@@ -40,7 +49,7 @@ def decoded(name: str, data: bytes) -> list[DecoderEvent]:
 def test_a_decoded_line_says_what_was_encoded_within_half_a_step(name, number, accel_g):
     line = ENCODERS[name](number, accel_g)
     frames = [event for event in decoded(name, line) if isinstance(event, Frame)]
-    assert [frame.counter for frame in frames] == [number]
+    assert [frame.counter for frame in frames] == [None if name == "witmotion" else number]
     read_g = protocol(name).to_nominal_g(frames[0].raw)
     assert read_g == pytest.approx(accel_g, abs=HALF_STEP_G[name] * 1.001)
 
@@ -71,12 +80,41 @@ def test_a_reading_beyond_the_converter_stays_at_its_rail(accel_g):
 @pytest.mark.parametrize("name", sorted(ENCODERS))
 @settings(deadline=None)
 @given(number=COUNTERS, accel_g=accel(3.0), seed=st.integers(0, 999))
-def test_a_cut_line_has_lost_a_field(name, number, accel_g, seed):
-    line = ENCODERS[name](number, accel_g)
-    cut = cut_line(line, random.Random(seed))
-    assert 0 < len(cut) < len(line)
-    assert cut.count(b",") < line.count(b",")
-    assert line.startswith(cut.rstrip(b"\r\n"))
+def test_a_cut_frame_has_lost_its_end_and_a_cut_line_a_field(name, number, accel_g, seed):
+    whole = ENCODERS[name](number, accel_g)
+    rest = cut(name, whole, random.Random(seed))
+    assert 0 < len(rest) < len(whole)
+    if name in LINES:
+        assert rest.count(b",") < whole.count(b",")
+        rest = rest.rstrip(b"\r\n")
+    assert whole.startswith(rest)
+
+
+def test_the_bytes_of_a_binary_sample_are_those_of_the_documentation():
+    data = encode_binary(258, (0.0, -0.5, 1.0), 80)
+    assert data.hex(" ") == "05 01 01 02 01 01 08 18 fc d0 07 50 49 92 00"
+
+
+def test_the_bytes_of_a_name_are_those_of_the_documentation():
+    assert encode_identity("arm 7").hex(" ") == "0a 01 02 61 72 6d 20 37 17 47 00"
+
+
+def test_the_bytes_of_a_witmotion_frame_are_those_of_the_documentation():
+    data = encode_witmotion(None, (0.0, -0.5, 1.0))
+    assert data[:11].hex(" ") == "55 51 00 00 00 fc 00 08 c4 09 77"
+    assert len(data) == 33
+
+
+@settings(deadline=None)
+@given(accel_g=accel(1e6))
+@pytest.mark.parametrize("name", ["witmotion", "binary"])
+def test_a_reading_beyond_sixteen_bits_stays_at_their_end(name, accel_g):
+    (frame,) = (
+        event for event in decoded(name, ENCODERS[name](7, accel_g)) if type(event) is Frame
+    )
+    for count, value_g in zip(frame.raw, accel_g, strict=True):
+        if abs(value_g) > 16.5:
+            assert count == (32767 if value_g > 0 else -32768)
 
 
 @settings(deadline=None)
