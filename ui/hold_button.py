@@ -1,6 +1,6 @@
 """A button that acts only after it was held: for what must not happen by a brush of the hand."""
 
-from PySide6.QtCore import QRectF, QSize, Qt, QTimer, Signal
+from PySide6.QtCore import QEvent, QRectF, QSize, Qt, QTimer, Signal
 from PySide6.QtGui import (
     QColor,
     QFocusEvent,
@@ -31,16 +31,20 @@ class HoldButton(QPushButton):
 
     Attributes:
         progress: How far it is filled, 0 to 1.
+        is_held: It was held long enough and has not been let go since.
 
     Signals:
         held: It was held long enough; once per hold.
+        let_go: What was held long enough is held no longer, however that came; once per ``held``.
     """
 
     held = Signal()
+    let_go = Signal()
 
     def __init__(self, text: str, clock: Clock = monotonic, parent: QWidget | None = None) -> None:
         super().__init__(text, parent)
         self.progress = 0.0
+        self.is_held = False
         self._clock = clock
         self._last_s = 0.0
         self._timer = QTimer(self, interval=_TICK_MS)
@@ -94,6 +98,12 @@ class HoldButton(QPushButton):
         self._cancel()
         super().hideEvent(event)
 
+    def changeEvent(self, event: QEvent) -> None:
+        """Empty when it is disabled."""
+        super().changeEvent(event)
+        if event.type() is QEvent.Type.EnabledChange and not self.isEnabled():
+            self._cancel()
+
     def paintEvent(self, event: QPaintEvent) -> None:
         """Draw the button, the filling and the text over it."""
         option = QStyleOptionButton()
@@ -103,9 +113,10 @@ class HoldButton(QPushButton):
         self.style().drawControl(QStyle.ControlElement.CE_PushButton, option, painter, self)
         colours = colours_of(self.palette())
         inner = QRectF(self.rect()).adjusted(3, 3, -3, -3)
-        if self.progress > 0:
+        filling = 1.0 if self.is_held else self.progress
+        if filling > 0:
             filled = QRectF(inner)
-            filled.setWidth(inner.width() * self.progress)
+            filled.setWidth(inner.width() * filling)
             tint = QColor(colours.info)
             tint.setAlpha(150)
             painter.fillRect(filled, tint)
@@ -117,7 +128,7 @@ class HoldButton(QPushButton):
         painter.end()
 
     def _begin(self) -> None:
-        if not self._timer.isActive():
+        if not self._timer.isActive() and not self.is_held:
             self._last_s = self._clock()
             self._timer.start()
 
@@ -126,6 +137,9 @@ class HoldButton(QPushButton):
         if self.progress:
             self.progress = 0.0
             self.update()
+        if self.is_held:
+            self.is_held = False
+            self.let_go.emit()
 
     def _advance(self) -> None:
         if not self.isEnabled():
@@ -137,5 +151,7 @@ class HoldButton(QPushButton):
         self.progress = min(1.0, self.progress + step_s / HOLD_S)
         self.update()
         if self.progress >= 1.0:
-            self._cancel()
+            self._timer.stop()
+            self.progress = 0.0
+            self.is_held = True
             self.held.emit()
