@@ -72,6 +72,7 @@ class OperatePage(QWidget):
         self._gesture.show_recognition(recognition, snapshot.direction)
         if self._guided is not None:
             self._gesture.show_heard(self._guided.snapshot().heard)
+        self._field.show_settings(self._cell.settings.robot)
         self._field.show_robot(snapshot.robot)
         used = None
         if recognition is not None:

@@ -63,8 +63,7 @@ class FieldView(QFrame):
         self._drawn: tuple[object, ...] = ()
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Expanding)
         self.setAccessibleName("Robot: no position")
-        long_names = [box.name for box in settings.keep_outs if len(box.name) > NAME_LENGTH]
-        self.setToolTip("\n".join(long_names))
+        self._name_keep_outs()
 
     def sizeHint(self) -> QSize:
         """Two squares."""
@@ -73,6 +72,13 @@ class FieldView(QFrame):
     def minimumSizeHint(self) -> QSize:
         """Small, but the axes can still be read."""
         return QSize(360, 170)
+
+    def show_settings(self, settings: RobotSettings) -> None:
+        """Show another field; repaints only when it is another one."""
+        if settings != self._settings:
+            self._settings = settings
+            self._name_keep_outs()
+            self.update()
 
     def show_robot(self, robot: RobotView) -> None:
         """Show another moment; repaints only when something has moved."""
@@ -108,6 +114,11 @@ class FieldView(QFrame):
                 return
         self.path_mm.append(here)
         del self.path_mm[:-_PATH_LIMIT]
+
+    def _name_keep_outs(self) -> None:
+        """Names too long for the picture in full."""
+        boxes = self._settings.keep_outs
+        self.setToolTip("\n".join(box.name for box in boxes if len(box.name) > NAME_LENGTH))
 
     def _say(self, robot: RobotView) -> None:
         if robot.pose is None:
