@@ -2,12 +2,22 @@
 
 from collections.abc import Mapping
 from dataclasses import replace
+from enum import Enum
 
 from PySide6.QtCore import Qt
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QAbstractButton, QApplication, QLabel, QWidget
 
+from gestureapp.config import Settings
 from gestureapp.sensing.values import LinkState, Side, StreamHealth
+from gestureapp.settings_check import (
+    RANGES,
+    bad_pairs,
+    named_values,
+    unit_of,
+    why_not_below,
+    why_out_of_range,
+)
 from gestureapp.setup.values import (
     CalibrationView,
     FindingView,
@@ -119,6 +129,50 @@ def six(n_done: int, progress: float = 0.4) -> tuple[PositionView, ...]:
     )
 
 
+def every_setting(settings: Settings | None = None) -> tuple[SettingRow, ...]:
+    """All settings as a window gets them, with their real ranges."""
+    return tuple(
+        SettingRow(
+            name,
+            f"What {name} means, in a sentence or two as the file has it.",
+            _as_in_file(value),
+            unit_of(name),
+            _allowed(owner, name),
+            "built-in",
+            is_locked=False,
+            choices=tuple(each.value for each in type(value)) if isinstance(value, Enum) else (),
+        )
+        for name, owner, value in named_values(Settings() if settings is None else settings)
+    )
+
+
+def wrong_in(rows: tuple[SettingRow, ...], changes: Mapping[str, object]) -> dict[str, str]:
+    """What the real checks say to changed values, each by itself and in pairs."""
+    owners = {name: owner for name, owner, _ in named_values(Settings())}
+    wrong = {}
+    for name, value in changes.items():
+        frozen = tuple(value) if isinstance(value, list) and not name.endswith("outs") else value
+        if text := why_out_of_range(owners[name], name.rpartition(".")[2], frozen):
+            wrong[name] = text
+    values = {row.name: row.value for row in rows} | dict(changes)
+    for low, high in bad_pairs(values):
+        wrong.setdefault(low, why_not_below(values, low, high))
+    return wrong
+
+
+def _as_in_file(value: object) -> object:
+    if isinstance(value, Enum):
+        return value.value
+    if isinstance(value, tuple):
+        return list(value)
+    return "" if value is None else value
+
+
+def _allowed(owner: type, name: str) -> str:
+    allowed = RANGES.get((owner, name.rpartition(".")[2]))
+    return "" if allowed is None else f"{allowed} {unit_of(name)}".strip()
+
+
 class FakeSetup:
     """Implements ``SetupControls``: the test sets ``shown`` and reads ``calls``.
 
@@ -134,7 +188,7 @@ class FakeSetup:
     def __init__(self, shown: SetupSnapshot | None = None) -> None:
         self.shown = fine() if shown is None else shown
         self.calls: list[str] = []
-        self.rows: tuple[SettingRow, ...] = ()
+        self.rows: tuple[SettingRow, ...] = every_setting()
         self.folk: tuple[PersonRow, ...] = ()
         self.refused: dict[str, str] = {}
         self.answer = ""
@@ -226,10 +280,13 @@ class FakeSetup:
     def settings(self) -> tuple[SettingRow, ...]:
         return self.rows
 
+    def check_settings(self, changes: Mapping[str, object]) -> Mapping[str, str]:
+        return self.refused or wrong_in(self.rows, changes)
+
     def change_settings(self, changes: Mapping[str, object]) -> Mapping[str, str]:
         self.calls.append(f"change_settings {dict(changes)}")
-        if self.refused:
-            return self.refused
+        if wrong := self.check_settings(changes):
+            return wrong
         self.rows = tuple(
             replace(row, value=changes[row.name], origin="settings.toml, line 1")
             if row.name in changes
