@@ -11,6 +11,9 @@ from gestureapp.sensing.values import Side
 from gestureapp.setup.controls import SetupControls
 from gestureapp.setup.values import SetupSnapshot
 from ui.pages import PageStack
+from ui.people_step import PeopleStep
+from ui.robot_step import RobotStep
+from ui.settings_step import SettingsStep
 from ui.setup_calibrate_step import CalibrateStep
 from ui.setup_sensors_step import SetupSensorsStep
 from ui.setup_words import SetupStep, setup_states
@@ -99,6 +102,9 @@ class SetupPage(QWidget):
         return {
             SetupStep.SENSORS: self._build_sensors,
             SetupStep.CALIBRATE: self._build_calibrate,
+            SetupStep.ROBOT: self._build_robot,
+            SetupStep.SETTINGS: self._build_settings,
+            SetupStep.PEOPLE: self._build_people,
         }
 
     def _build_sensors(self) -> None:
@@ -109,6 +115,18 @@ class SetupPage(QWidget):
     def _build_calibrate(self) -> None:
         calibrate = CalibrateStep(self._setup)
         self._keep(SetupStep.CALIBRATE, calibrate, calibrate)
+
+    def _build_robot(self) -> None:
+        robot = RobotStep(self._setup)
+        self._keep(SetupStep.ROBOT, robot, robot)
+
+    def _build_settings(self) -> None:
+        settings = SettingsStep(self._setup)
+        self._keep(SetupStep.SETTINGS, settings, settings)
+
+    def _build_people(self) -> None:
+        people = PeopleStep(self._setup)
+        self._keep(SetupStep.PEOPLE, people, people)
 
     def _calibrate(self, side: Side) -> None:
         self.go_to(SetupStep.CALIBRATE)

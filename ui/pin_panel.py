@@ -1,0 +1,91 @@
+"""Setting and taking away the PIN, with what it is good for."""
+
+from PySide6.QtWidgets import QFrame, QHBoxLayout, QPushButton, QVBoxLayout, QWidget
+
+from gestureapp.setup.controls import SetupControls
+from gestureapp.setup.values import LockView
+from ui.draft_bar import heading, pin_field
+from ui.labels import plain
+from ui.theme import SMALL_PX, TEXT_PX
+
+WORTH = (
+    "A PIN keeps operators and engineers apart: nobody changes a limit of motion by mistake. It is "
+    "no defence: whoever can write the settings file can do without it."
+)
+GIVE_FIRST = "Give the PIN first to change it or take it away."
+DIFFERENT = "The two are different; type the new PIN again."
+
+
+class PinPanel(QFrame):
+    """Two fields for a new PIN. GUI thread only."""
+
+    def __init__(self, controls: SetupControls, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.setObjectName("pinPanel")
+        self._controls = controls
+        self._new = pin_field("newPin", "A new PIN")
+        self._again = pin_field("newPinAgain", "The new PIN again")
+        self._new.setPlaceholderText("new PIN")
+        self._again.setPlaceholderText("once more")
+        self._set = QPushButton("Set PIN")
+        self._set.setObjectName("setPin")
+        self._set.setAccessibleName("Set the PIN")
+        self._clear = QPushButton("Take it away")
+        self._clear.setObjectName("clearPin")
+        self._clear.setAccessibleName("Take the PIN away")
+        self._said = plain("pinSaid", TEXT_PX)
+        self._lay_out()
+        self._set.clicked.connect(self._set_new)
+        self._again.returnPressed.connect(self._set_new)
+        self._clear.clicked.connect(self._take_away)
+        self.show_lock(LockView())
+
+    def show_lock(self, lock: LockView) -> None:
+        """Show what can be done in this state of the lock."""
+        is_open = lock.is_open or not lock.has_pin
+        for widget in (self._new, self._again, self._set):
+            widget.setEnabled(is_open)
+        self._clear.setVisible(lock.has_pin)
+        self._clear.setEnabled(is_open)
+        if not is_open:
+            self._tell(GIVE_FIRST)
+        elif self._said.text() == GIVE_FIRST:
+            self._tell("")
+
+    def _set_new(self) -> None:
+        pin, again = self._new.text(), self._again.text()
+        if not pin:
+            self._tell("Type the new PIN first.")
+            return
+        if pin != again:
+            self._tell(DIFFERENT)
+            return
+        self._tell(self._controls.set_pin(pin) or "The PIN is set.")
+        self._new.clear()
+        self._again.clear()
+
+    def _take_away(self) -> None:
+        self._tell(self._controls.set_pin("") or "There is no PIN any more.")
+
+    def _tell(self, text: str) -> None:
+        if text != self._said.text():
+            self._said.setText(text)
+        self._said.setVisible(bool(text))
+
+    def _lay_out(self) -> None:
+        worth = plain("pinWorth", SMALL_PX)
+        worth.setText(WORTH)
+        entry = QHBoxLayout()
+        entry.setSpacing(6)
+        for widget in (self._new, self._again, self._set, self._clear):
+            entry.addWidget(widget)
+        entry.addStretch(1)
+        for button in (self._set, self._clear):
+            button.setAutoDefault(False)
+        layout = QVBoxLayout(self)
+        layout.setContentsMargins(12, 8, 12, 8)
+        layout.setSpacing(4)
+        layout.addWidget(heading("pinTitle", "PIN"))
+        layout.addWidget(worth)
+        layout.addLayout(entry)
+        layout.addWidget(self._said)
