@@ -83,6 +83,70 @@ class BigWord(QLabel):
         return QFontMetrics(font)
 
 
+class BigText(QLabel):
+    """A sentence in letters as large as its room allows, over several lines, for 3 m.
+
+    Args:
+        name: objectName.
+        min_px: Smallest letters.
+        max_px: Largest.
+        parent: Qt's.
+    """
+
+    def __init__(self, name: str, min_px: int, max_px: int, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self._range_px = (min_px, max_px)
+        self.setObjectName(name)
+        self.setTextFormat(Qt.TextFormat.PlainText)
+        self.setWordWrap(True)
+        self.setAlignment(Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignVCenter)
+        self.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Expanding)
+        sized(self, min_px, is_bold=True)
+
+    def show_text(self, text: str) -> None:
+        """Show another sentence."""
+        if text != self.text():
+            self.setText(text)
+            self._fit()
+
+    def minimumSizeHint(self) -> QSize:
+        """Two lines of the smallest letters, as wide as there is room."""
+        return QSize(120, 2 * self._range_px[0] + 16)
+
+    def sizeHint(self) -> QSize:
+        """The smallest is asked for; more is taken when it is there."""
+        return self.minimumSizeHint()
+
+    def hasHeightForWidth(self) -> bool:  # noqa: N802, Qt's spelling
+        """No: the letters follow the room, not the room the letters."""
+        return False
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        """Take the largest letters that fit."""
+        super().resizeEvent(event)
+        self._fit()
+
+    def _fit(self) -> None:
+        low, high = self._range_px
+        while low < high:
+            middle = (low + high + 1) // 2
+            if self._fits(middle):
+                low = middle
+            else:
+                high = middle - 1
+        if low != self.font().pixelSize():
+            sized(self, low, is_bold=True)
+
+    def _fits(self, size_px: int) -> bool:
+        font = QFont(self.font())
+        font.setPixelSize(size_px)
+        metrics, room = QFontMetrics(font), self.contentsRect()
+        flags = Qt.AlignmentFlag.AlignLeft | Qt.TextFlag.TextWordWrap
+        box = metrics.boundingRect(0, 0, room.width(), 10_000, flags.value, self.text())
+        widest = max((metrics.horizontalAdvance(word) for word in self.text().split()), default=0)
+        return box.height() <= room.height() and widest <= room.width()
+
+
 def plain(name: str, size_px: int = LARGE_PX, is_wrapped: bool = True) -> QLabel:
     """A label for text that comes from elsewhere: never read as markup.
 

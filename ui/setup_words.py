@@ -4,8 +4,15 @@ import math
 from enum import Enum
 
 from gestureapp.cell.snapshot import Snapshot
-from gestureapp.sensing.values import LinkState, Side
-from gestureapp.setup.values import Check, PosturesView, SensorCard, SetupSnapshot
+from gestureapp.sensing.values import LinkState, Side, StreamHealth
+from gestureapp.setup.values import (
+    Check,
+    LinkTestView,
+    PortChoice,
+    PosturesView,
+    SensorCard,
+    SetupSnapshot,
+)
 from ui.marks import Level
 from ui.step_state import StepState
 
@@ -48,7 +55,7 @@ def _calibrate_state(setup: SetupSnapshot) -> StepState:
     return StepState(
         n_fine + (not posture_problem(setup.postures)),
         3,
-        problem or "both",
+        problem or "ready",
         is_problem=bool(problem),
     )
 
@@ -93,3 +100,74 @@ def link_word(card: SensorCard) -> str:
     if card.health.link is LinkState.RECEIVING and not card.health.is_ok:
         return "receiving, not as it should"
     return card.health.link.value
+
+
+FIGURES = (
+    ("Rate", "Rate"),
+    ("Jitter", "Jitter"),
+    ("WorstGap", "Worst gap"),
+    ("Lost", "Lost"),
+    ("Bad", "Unreadable"),
+    ("Battery", "Battery"),
+)
+"""Figures of a stream: end of the objectName, and the caption."""
+
+
+def figure_texts(health: StreamHealth) -> tuple[str, ...]:
+    """The figures of a stream, as named in ``FIGURES``; a dash for what is not known."""
+    is_coming, battery = health.rate_hz > 0, health.battery_percent
+    unknown = "not sent" if is_coming else "\u2013"
+    return (
+        f"{health.rate_hz:.0f} Hz" if is_coming else "\u2013",
+        ms_text(health.jitter_s) if is_coming else "\u2013",
+        ms_text(health.worst_gap_s) if health.worst_gap_s > 0 else "\u2013",
+        count_text(health.n_lost),
+        count_text(health.n_bad),
+        unknown if battery is None else f"{battery:.0f} %",
+    )
+
+
+def ms_text(span_s: float) -> str:
+    """A short time in ms; a dash when it is not known."""
+    if not math.isfinite(span_s):
+        return "\u2013"
+    ms = span_s * 1e3
+    return f"{ms:.1f} ms" if ms < 10 else f"{ms:.0f} ms"
+
+
+def count_text(n: int) -> str:
+    """How many, in at most six letters."""
+    return str(n) if n < 100_000 else f"{n / 1e6:.1f} M"
+
+
+def port_text(port: PortChoice) -> str:
+    """A port as a list shows it: its name, where it is, and why it cannot be opened."""
+    where = "" if port.name == port.url else f"  ({port.url})"
+    trouble = f": {port.trouble}" if port.trouble else ""
+    return f"{port.name}{where}{trouble}"
+
+
+LINK_FIGURES = (
+    ("Rate", "Rate"),
+    ("Jitter", "Jitter"),
+    ("WorstGap", "Worst gap"),
+    ("Lost", "Lost"),
+    ("Bad", "Unreadable"),
+    ("LowestTrip", "Carries a trip level of"),
+    ("SetTrip", "Trip level set"),
+)
+"""Figures of a link test: end of the objectName, and the caption."""
+
+
+def link_figure_texts(test: LinkTestView) -> tuple[str, ...]:
+    """The figures of a link test, as named in ``LINK_FIGURES``."""
+    lowest = ms_text(test.lowest_trip_s)
+    return (
+        f"{test.rate_hz:.1f} Hz",
+        ms_text(test.jitter_s),
+        ms_text(test.worst_gap_s),
+        count_text(test.n_lost),
+        count_text(test.n_bad),
+        lowest if lowest == "\u2013" else f"{lowest} or more",
+        ms_text(test.set_trip_s),
+    )
