@@ -20,14 +20,15 @@ from gestureapp.config import SCHEMA_VERSION, Settings
 from gestureapp.errors import ConfigError, RecordingError
 from gestureapp.recognition.files import mode_of, write_atomically
 from gestureapp.settings_check import LOCK_TABLE
-from gestureapp.settings_source import is_there, parsed, read_bytes, text_of
+from gestureapp.settings_source import bytes_if_there, parsed, text_of
 from gestureapp.settings_text import comment_on_key, comment_on_table
 from gestureapp.settings_values import plain
 
 BACKUP_FOLDER: Final = "backups"
 N_BACKUPS: Final = 10
 _BOM: Final = b"\xef\xbb\xbf"
-_NEW_FILE: Final = f"schema = {SCHEMA_VERSION}\n"
+NEW_FILE: Final = f"schema = {SCHEMA_VERSION}\n"
+"""What a settings file begins with."""
 _LOCK_COMMENT: Final = (
     "# The PIN before settings that bear on motion; take this table out to have none."
 )
@@ -47,17 +48,8 @@ def write_settings(
         ConfigError: the file is damaged, was changed meanwhile, or cannot be written: says why. The
             file is as it was.
     """
-    old = read_for_change(file)
+    old = bytes_if_there(file)
     replace_settings(file, old, edited(file, old, changes), wall_clock)
-
-
-def read_for_change(file: Path) -> bytes | None:
-    """What is in a settings file; None when it is not there.
-
-    Raises:
-        ConfigError: it cannot be read.
-    """
-    return read_bytes(file) if is_there(file) else None
 
 
 def edited(file: Path, old: bytes | None, changes: Mapping[str, object]) -> bytes:
@@ -71,9 +63,9 @@ def edited(file: Path, old: bytes | None, changes: Mapping[str, object]) -> byte
     Raises:
         ConfigError: it is damaged, or made such that the change cannot be put into it.
     """
-    text = _NEW_FILE if old is None else text_of(file, old)
+    text = NEW_FILE if old is None else text_of(file, old)
     wanted = parsed(file, text)  # the reader's own parser decides whether the file is damaged
-    values = {name: _as_toml(value) for name, value in changes.items()}
+    values = {name: as_toml(value) for name, value in changes.items()}
     try:
         document = tomlkit.parse(text)
         for name, value in values.items():
@@ -105,7 +97,7 @@ def replace_settings(
         target.parent.mkdir(parents=True, exist_ok=True)
         if old is not None:
             _keep(target, old, wall_clock())
-        if read_for_change(target) != old:
+        if bytes_if_there(target) != old:
             reason = "was changed by another program meanwhile; nothing was written, try again"
             raise ConfigError("settings file", str(file), reason)
         write_atomically(target, new)
@@ -182,15 +174,15 @@ def _owner_of(table: str) -> type | None:
     return None if table == LOCK_TABLE else cast("type", get_type_hints(Settings)[table])
 
 
-def _as_toml(value: object) -> Any:  # noqa: ANN401 - TOML
+def as_toml(value: object) -> Any:  # noqa: ANN401 - TOML
     """A value in TOML's types; None stays None."""
     if value is None:
         return None
     value = plain(value)
     if isinstance(value, Mapping):
-        return {key: _as_toml(item) for key, item in value.items()}
+        return {key: as_toml(item) for key, item in value.items()}
     if isinstance(value, list | tuple):
-        return [_as_toml(item) for item in value]
+        return [as_toml(item) for item in value]
     return value
 
 

@@ -29,7 +29,7 @@ from gestureapp.settings_check import (
 from gestureapp.settings_lines import lines_of
 from gestureapp.settings_narrowing import FREE_OF_BUILT_IN, why_wider
 from gestureapp.settings_origins import BUILT_IN, Origin, PinEntry, SettingsLayers
-from gestureapp.settings_source import is_there, parsed, read_bytes, text_of
+from gestureapp.settings_source import bytes_if_there, parsed, read_bytes, text_of
 from gestureapp.settings_text import default_settings_text, settings_text
 from gestureapp.settings_values import (
     BOX,
@@ -100,14 +100,15 @@ def read_settings(
 def read_layers(
     files: Sequence[Path],
     named: Path | None = None,
-    read: Callable[[Path], bytes] = read_bytes,
+    read: Callable[[Path], bytes | None] = bytes_if_there,
 ) -> SettingsLayers:
     """Read the layers as ``read_settings`` does, and say where every value comes from.
 
     Args:
         files: As for ``read_settings``.
         named: As for ``read_settings``.
-        read: What is in a file; another than the disk's to try a change before it is written.
+        read: What is in a file, None where there is none; another than the disk's to try a change
+            before it is written.
 
     Raises:
         ConfigError: a file cannot be read, is not UTF-8, is not TOML, or has another schema.
@@ -115,11 +116,11 @@ def read_layers(
     settings = Settings()
     layers = SettingsLayers(settings, origins={n: BUILT_IN for n, _, _ in named_values(settings)})
     for index, file in enumerate(files):
-        if read is not read_bytes or is_there(file):
-            layers = _laid_over(_Layer(Origin(file), read(file), layers, is_narrowed=index > 0))
+        if (data := read(file)) is not None:
+            layers = _laid_over(_Layer(Origin(file), data, layers, is_narrowed=index > 0))
     if named is not None:
-        top = _Layer(Origin(named, is_named=True), read(named), layers, is_narrowed=True)
-        layers = _laid_over(top)
+        top, data = Origin(named, is_named=True), read_bytes(named)
+        layers = _laid_over(_Layer(top, data, layers, is_narrowed=True))
     return layers
 
 

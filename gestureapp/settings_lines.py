@@ -17,8 +17,8 @@ def lines_of(text: str) -> Mapping[str, int]:
     lines: dict[str, int] = {}
     table: tuple[str, ...] = ()
     n_of: dict[tuple[str, ...], int] = {}
-    for start, statement, items in _statements(text):
-        paths = list(_paths(tomllib.loads(statement)))
+    for start, statement, found, items in _statements(text):
+        paths = list(_paths(found))
         if statement.startswith("["):
             table = paths[0] if paths else ()
             if statement.startswith("[["):
@@ -32,12 +32,16 @@ def lines_of(text: str) -> Mapping[str, int]:
     return lines
 
 
-def _statements(text: str) -> Iterator[tuple[int, str, Mapping[tuple[str, ...], int]]]:
-    """The first line of every statement, its text, and the lines of the items of its lists."""
+def _statements(
+    text: str,
+) -> Iterator[tuple[int, str, Mapping[str, Any], Mapping[tuple[str, ...], int]]]:
+    """First line, text and content of every statement, and the lines of the items of its lists."""
     items: dict[tuple[str, ...], int] = {}
     statement, start = "", 1
     for number, line in enumerate(text.split("\n"), 1):
         if not statement:
+            if not line.strip() or line.lstrip().startswith("#"):
+                continue
             start, items = number, {}
         statement += line + "\n"
         found = _parsed(statement)
@@ -45,7 +49,7 @@ def _statements(text: str) -> Iterator[tuple[int, str, Mapping[tuple[str, ...], 
         for path in _items(so_far or {}):
             items.setdefault(path, number)
         if found is not None:
-            yield start, statement.lstrip(), items
+            yield start, statement.lstrip(), found, items
             statement = ""
         elif number - start >= _MAX_STATEMENT_LINES:
             return

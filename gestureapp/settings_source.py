@@ -42,6 +42,15 @@ def read_bytes(file: Path) -> bytes:
     return data
 
 
+def bytes_if_there(file: Path) -> bytes | None:
+    """What is in a settings file; None when it is not there.
+
+    Raises:
+        ConfigError: it cannot be read, or is no settings file.
+    """
+    return read_bytes(file) if is_there(file) else None
+
+
 def text_of(file: Path, data: bytes) -> str:
     """The text in those bytes, without a byte order mark.
 

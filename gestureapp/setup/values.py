@@ -358,6 +358,8 @@ class SettingRow:
         origin: Where the value comes from: ``built-in``, or a file with its line, or ``--config``.
         is_locked: It bears on motion, and the PIN has not been given.
         choices: What it may be, where that is one of a few words; empty where it is not.
+        fixed: Why it cannot be changed here, whatever the PIN: a file named on the command line
+            sets it, or the demo does. Empty when it can.
     """
 
     name: str
@@ -368,6 +370,7 @@ class SettingRow:
     origin: str
     is_locked: bool
     choices: tuple[str, ...] = ()
+    fixed: str = ""
 
 
 @dataclass(frozen=True, slots=True)

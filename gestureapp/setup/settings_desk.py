@@ -1,0 +1,358 @@
+"""Settings as the window sees and changes them: checked as a whole, then written, then used.
+
+A change is tried first by the reader of the files itself, on the content that the user's file would
+have. Only what it takes without a word is written; so no limit of a lower layer is ever widened,
+and the next start finds what the window showed.
+"""
+
+import threading
+import time
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any, Final, get_type_hints
+
+from gestureapp.clock import Clock, monotonic
+from gestureapp.config import Settings
+from gestureapp.errors import ConfigError
+from gestureapp.settings_check import (
+    PIN_KEY,
+    SettingsFinding,
+    bears_on_motion,
+    check_settings,
+    named_values,
+    why_out_of_range,
+)
+from gestureapp.settings_edit import NEW_FILE, as_toml, edited, replace_settings
+from gestureapp.settings_file import read_layers
+from gestureapp.settings_origins import SettingsLayers
+from gestureapp.settings_source import bytes_if_there
+from gestureapp.settings_text import about, allowed, choices
+from gestureapp.settings_values import WrongType, converted, plain
+from gestureapp.settings_words import shown, unit_of
+from gestureapp.setup.lock import Lock, hash_pin, why_no_pin
+from gestureapp.setup.values import LockView, SettingRow
+
+LOCKED: Final = "locked: give the PIN first"
+_NOT_KEPT: Final = Path("this run only")
+"""The user's layer of a cell that has no files, as a demo."""
+
+
+@dataclass(frozen=True, slots=True)
+class _Trial:
+    """What a change would come to: wrong by name, and the rest where nothing is."""
+
+    wrong: Mapping[str, str]
+    old: bytes | None = None
+    new: bytes = b""
+    layers: SettingsLayers | None = None
+    settings: Settings | None = None
+
+
+class SettingsDesk:
+    """The settings of a running cell. Any thread; a change may take some 50 ms of disk.
+
+    Args:
+        files: The site's file, then the user's, which is the one written to; none in a demo, whose
+            changes hold for this run only.
+        named: The file named on the command line; what it sets cannot be changed here.
+        settings: As the cell was started with them. What differs from the files was given at the
+            start by something else, and cannot be changed here either.
+        use: Makes the cell use changed settings once nothing may move.
+        check: Raises ConfigError when the cell could not use them as a whole.
+        tell: Puts a line among the events of the session.
+        clock: Monotonic seconds, for the PIN.
+        wall_clock: Seconds since the epoch, for the names of backups.
+
+    Raises:
+        ConfigError: a file cannot be read, is not UTF-8, is not TOML, or has another schema.
+    """
+
+    def __init__(
+        self,
+        files: Sequence[Path],
+        named: Path | None,
+        settings: Settings,
+        use: Callable[[Settings], None],
+        check: Callable[[Settings], None] = lambda settings: None,
+        tell: Callable[[str], None] = lambda text: None,
+        clock: Clock = monotonic,
+        wall_clock: Clock = time.time,
+    ) -> None:
+        self._files = tuple(files) or (Path("no site file"), _NOT_KEPT)
+        self._user = self._files[-1]
+        self._memory: dict[Path, bytes] = {} if files else {self._user: NEW_FILE.encode()}
+        self._named, self._use, self._check, self._tell = named, use, check, tell
+        self._wall_clock = wall_clock
+        self._mutex = threading.Lock()
+        self._layers = self._read()
+        self._used = settings
+        pin = self._layers.pin
+        self._lock = Lock(clock, pin.pin_hash, str(pin.origin))
+        self._rows = self._drawn()
+
+    @property
+    def lock(self) -> LockView:
+        """The PIN as the window shows it."""
+        return self._lock.view
+
+    @property
+    def findings(self) -> tuple[SettingsFinding, ...]:
+        """What is wrong in the files, as last read."""
+        return self._layers.findings
+
+    def settings(self) -> tuple[SettingRow, ...]:
+        """Every setting with value, meaning, range and origin, in the order of the file."""
+        if self._lock.is_open:
+            return self._rows
+        return tuple(replace(row, is_locked=bears_on_motion(row.name)) for row in self._rows)
+
+    def check_settings(self, changes: Mapping[str, object]) -> Mapping[str, str]:
+        """What ``change_settings`` would say to these; nothing is changed, and no file touched."""
+        with self._mutex:
+            return self._tried(self._real(changes)).wrong
+
+    def change_settings(self, changes: Mapping[str, object]) -> Mapping[str, str]:
+        """Change these, write them to the user's file, and use them once nothing may move.
+
+        Args:
+            changes: New values by dotted name, as a settings file would hold them; None takes a
+                value out of the user's file, so that the layers below hold.
+
+        Returns:
+            What is wrong, by name; empty when all were taken. Otherwise nothing at all is changed.
+        """
+        with self._mutex:
+            changes = self._real(changes)
+            trial = self._tried(changes) if changes else _Trial({})
+            if trial.layers is None or trial.settings is None:
+                return trial.wrong
+            try:
+                self._write(self._user, trial.old, trial.new)
+            except ConfigError as error:
+                return dict.fromkeys(changes, _in_words(error))
+            before, self._layers, self._used = self._used, trial.layers, trial.settings
+            self._rows = self._drawn()
+        for line in _told(before, self._used):
+            self._tell(line)
+        self._use(self._used)
+        return {}
+
+    def look_again(self) -> None:
+        """Another part of the application has written to the user's file: show what is there.
+
+        What bears on motion is not taken over; a file that cannot be read changes nothing.
+        """
+        with self._mutex:
+            self._refreshed()
+
+    def open_lock(self, pin: str) -> None:
+        """Give the PIN; settings that bear on motion can be changed for ten minutes."""
+        self._lock.open(pin)
+
+    def close_lock(self) -> None:
+        """Lock them again."""
+        self._lock.close()
+
+    def set_pin(self, pin: str) -> str:
+        """Set the PIN, or take it away with an empty one; only while open.
+
+        It goes into the site's file where that can be written, else into the user's.
+
+        Returns:
+            Why not, or empty.
+        """
+        if not self._lock.is_open:
+            return "Give the PIN that is set first."
+        if pin and (wrong := why_no_pin(pin)):
+            return wrong
+        with self._mutex:
+            pin_hash = hash_pin(pin) if pin else ""
+            if wrong := self._keep_pin(pin_hash or None):
+                return wrong
+            self._layers = self._read()
+            self._lock.change(pin_hash, str(self._layers.pin.origin))
+        self._tell(f"settings: PIN {'set' if pin else 'taken away'} by the window")
+        return ""
+
+    def _keep_pin(self, pin_hash: str | None) -> str:
+        there = self._layers.pin.origin.file
+        places = self._files if there is None else (there,)
+        why = ""
+        for file in places if pin_hash or there else ():
+            if self._memory and file not in self._memory:
+                continue
+            try:
+                old = self._content(file)
+                self._write(file, old, edited(file, old, {PIN_KEY: pin_hash}))
+            except ConfigError as error:
+                why = _in_words(error)
+            else:
+                return ""
+        return why
+
+    def _real(self, changes: Mapping[str, object]) -> dict[str, object]:
+        """Without what is as it was."""
+        values = {name: plain(value) for name, _, value in named_values(self._used)}
+        return {
+            name: value
+            for name, value in changes.items()
+            if value is None or name not in values or as_toml(value) != as_toml(values[name])
+        }
+
+    def _tried(self, changes: Mapping[str, object]) -> _Trial:
+        rows = {row.name: row for row in self.settings()}
+        wrong = {
+            name: text for name, new in changes.items() if (text := self._why(name, new, rows))
+        }
+        if wrong:
+            return _Trial(wrong)
+        try:
+            self._refreshed_or_refused()
+            old = self._content(self._user)
+            new = edited(self._user, old, changes)
+            layers = self._read({self._user: new})
+        except ConfigError as error:
+            return _Trial(dict.fromkeys(changes, _in_words(error)))
+        wrong = _new_findings(self._layers.findings, layers.findings)
+        wrong |= self._not_taken(changes, layers)
+        settings = _changed(self._used, self._layers.settings, layers.settings)
+        wrong |= _new_findings(check_settings(self._used), check_settings(settings))
+        if not wrong:
+            try:
+                self._check(settings)
+            except ConfigError as error:
+                wrong = dict.fromkeys(changes, error.reason)
+        return _Trial(wrong) if wrong else _Trial({}, old, new, layers, settings)
+
+    def _why(self, name: str, new: object, rows: Mapping[str, SettingRow]) -> str:
+        """What is wrong with one new value by itself; empty when nothing is."""
+        if name not in rows:
+            return "there is no such setting"
+        if rows[name].fixed or rows[name].is_locked:
+            return rows[name].fixed or LOCKED
+        owner = next(owner for one, owner, _ in named_values(self._used) if one == name)
+        key = name.partition(".")[2]
+        if new is None or name == "robot.keep_outs":
+            return ""
+        raw = as_toml(new)
+        try:
+            value = converted(raw, get_type_hints(owner)[key], self._user.parent)
+        except WrongType as wrong:
+            return f"{shown(raw)} is not allowed; allowed is {wrong}"
+        return why_out_of_range(owner, key, value)
+
+    def _not_taken(self, changes: Mapping[str, object], layers: SettingsLayers) -> dict[str, str]:
+        """Boxes that a layer below has cannot be taken away."""
+        wanted = changes.get("robot.keep_outs")
+        if not isinstance(wanted, list | tuple):
+            return {}
+        if len(layers.settings.robot.keep_outs) <= len(wanted):
+            return {}
+        return {"robot.keep_outs": "the boxes of the site's file stay; a later file only adds some"}
+
+    def _refreshed_or_refused(self) -> None:
+        """Take over what else was written meanwhile, unless it bears on motion.
+
+        Raises:
+            ConfigError: it does, or a file cannot be read.
+        """
+        if strange := self._refreshed(is_quiet=False):
+            reason = (
+                f"{', '.join(strange)} was changed by another program; start the application again "
+                "to use that"
+            )
+            raise ConfigError("settings file", str(self._user), reason)
+
+    def _refreshed(self, is_quiet: bool = True) -> list[str]:
+        """Read the files again; what bears on motion and is not as it was read before."""
+        try:
+            now = self._read()
+        except ConfigError:
+            if is_quiet:
+                return []
+            raise
+        before, after = _values(self._layers.settings), _values(now.settings)
+        strange = [n for n in after if after[n] != before[n] and bears_on_motion(n)]
+        if not strange:
+            self._used = _changed(self._used, self._layers.settings, now.settings)
+            self._layers = now
+            self._rows = self._drawn()
+        return strange
+
+    def _read(self, instead: Mapping[Path, bytes] | None = None) -> SettingsLayers:
+        def content(file: Path) -> bytes | None:
+            return instead[file] if instead and file in instead else self._content(file)
+
+        return read_layers(self._files, self._named, content)
+
+    def _content(self, file: Path) -> bytes | None:
+        return self._memory.get(file) if self._memory else bytes_if_there(file)
+
+    def _write(self, file: Path, old: bytes | None, new: bytes) -> None:
+        if self._memory:
+            self._memory[file] = new
+        else:
+            replace_settings(file, old, new, self._wall_clock)
+
+    def _drawn(self) -> tuple[SettingRow, ...]:
+        from_files = _values(self._layers.settings)
+        return tuple(
+            self._row(name, owner, value, is_given=value != from_files[name])
+            for name, owner, value in named_values(self._used)
+        )
+
+    def _row(self, name: str, owner: type, value: object, is_given: bool) -> SettingRow:
+        key = name.partition(".")[2]
+        origin = self._layers.origins[name]
+        fixed = ""
+        if is_given:
+            fixed = "given when the application was started; it cannot be changed here"
+        elif origin.is_named:
+            fixed = f"set by {origin}; change it there"
+        return SettingRow(
+            name=name,
+            about=about(owner, key),
+            value=plain(value),
+            unit=unit_of(key),
+            allowed=allowed(owner, key),
+            origin="given at the start" if is_given else str(origin),
+            is_locked=False,
+            choices=choices(owner, key),
+            fixed=fixed,
+        )
+
+
+def _values(settings: Settings) -> dict[str, Any]:
+    return {name: value for name, _, value in named_values(settings)}
+
+
+def _changed(used: Settings, before: Settings, after: Settings) -> Settings:
+    """The used settings with what differs between two readings of the files."""
+    old, new = _values(before), _values(after)
+    for name in new:
+        if new[name] != old[name]:
+            table, _, key = name.partition(".")
+            used = replace(used, **{table: replace(getattr(used, table), **{key: new[name]})})
+    return used
+
+
+def _new_findings(
+    before: Sequence[SettingsFinding], after: Sequence[SettingsFinding]
+) -> dict[str, str]:
+    known = {(finding.setting, finding.text) for finding in before}
+    new = [finding for finding in after if (finding.setting, finding.text) not in known]
+    return {finding.setting: finding.cause or finding.text for finding in new}
+
+
+def _told(before: Settings, after: Settings) -> list[str]:
+    old, new = _values(before), _values(after)
+    return [
+        f"settings: {name} {shown(plain(old[name]))} -> {shown(plain(new[name]))} by the window"
+        for name in new
+        if new[name] != old[name]
+    ]
+
+
+def _in_words(error: ConfigError) -> str:
+    return f"{error.value}: {error.reason}"
