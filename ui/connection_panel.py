@@ -18,7 +18,7 @@ from gestureapp.setup.values import Check, Outcome, RobotCard, RobotRow, Setting
 from ui.draft_bar import heading
 from ui.labels import plain
 from ui.marks import Level, Mark
-from ui.pages import scrolling
+from ui.pages import scrolled
 from ui.theme import LARGE_PX, TEXT_PX, sized
 
 WHAT_IT_DOES = "Connecting only reads: nothing moves before somebody arms."
@@ -64,7 +64,7 @@ class ConnectionPanel(QWidget):
             self._shown = used
             self._host.setText(used[0])
             self._port.setText(used[1])
-        self._allowed.setText(f"allowed: {port.allowed}" if port.allowed else "")
+        self._allowed.setText(f"Allowed: {port.allowed}" if port.allowed else "")
         for widget in (self._host, self._port, self._connect):
             widget.setEnabled(not host.is_locked)
 
@@ -114,9 +114,7 @@ class ConnectionPanel(QWidget):
         inner = QVBoxLayout()
         inner.addLayout(self._grid)
         inner.addStretch(1)
-        area = scrolling(inner)
-        area.setObjectName("connectionRows")
-        area.setAccessibleName("What the controller said")
+        area = scrolled(inner, "connectionRows", "What the controller said")
         layout = QVBoxLayout(self)
         layout.setContentsMargins(14, 10, 14, 10)
         layout.setSpacing(8)

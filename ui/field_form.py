@@ -6,21 +6,21 @@ from PySide6.QtWidgets import (
     QButtonGroup,
     QGridLayout,
     QHBoxLayout,
-    QPushButton,
     QVBoxLayout,
     QWidget,
 )
 
 from gestureapp.cell.snapshot import RobotView
+from ui.choice_button import ChoiceButton
 from ui.draft_bar import heading
 from ui.facing_view import TURNS, FacingView, facing_text
 from ui.labels import plain
-from ui.pages import scrolling
+from ui.pages import scrolled
 from ui.robot_view import FieldView
 from ui.setting_editor import SettingEditor
 from ui.setting_values import edited_robot
 from ui.settings_draft import NEEDS_PIN, SettingsDraft
-from ui.theme import TEXT_PX, sized
+from ui.theme import SMALL_PX, TEXT_PX, sized
 
 FIELD = (
     ("Field of operation", ("ext_radius_mm", "int_radius_mm", "margin_mm")),
@@ -54,18 +54,19 @@ class SettingsForm(QWidget):
         name: str,
         parts: Iterable[tuple[str, tuple[str, ...]]],
         parent: QWidget | None = None,
+        *,
+        has_meaning: bool = False,
     ) -> None:
         super().__init__(parent)
         self.setObjectName(name)
         self._draft = draft
         self._parts = tuple(parts)
+        self._has_meaning = has_meaning
         self._editors: dict[str, SettingEditor] = {}
         self._column = QVBoxLayout()
         self._column.setSpacing(4)
         self._column.setContentsMargins(12, 8, 12, 8)
-        area = scrolling(self._column)
-        area.setObjectName(f"{name}Area")
-        area.setAccessibleName("Settings of the robot")
+        area = scrolled(self._column, f"{name}Area", "Settings of the robot")
         layout = QVBoxLayout(self)
         layout.setContentsMargins(0, 0, 0, 0)
         layout.addWidget(area)
@@ -86,6 +87,11 @@ class SettingsForm(QWidget):
             for name in there:
                 editor = self._editors[name] = SettingEditor(self._draft, name)
                 self._column.addWidget(editor)
+                if self._has_meaning:
+                    meaning = plain(f"about_{name}", SMALL_PX)
+                    meaning.setText(self._draft.rows[name].about)
+                    self._column.addWidget(meaning)
+                    self._column.addSpacing(4)
             self._column.addSpacing(8)
         self._column.addStretch(1)
 
@@ -134,11 +140,11 @@ class DriveForm(QWidget):
         self._lock = plain("facingLock", TEXT_PX)
         self._lock.setText(NEEDS_PIN)
         self._group = QButtonGroup(self)
-        self._turns: dict[int, QPushButton] = {}
+        self._turns: dict[int, ChoiceButton] = {}
         self._facing = QWidget()
         self._facing.setObjectName("facingPanel")
         self._lay_out_facing()
-        form = SettingsForm(draft, "driveSettings", DRIVE)
+        form = SettingsForm(draft, "driveSettings", DRIVE, has_meaning=True)
         layout = QHBoxLayout(self)
         layout.setContentsMargins(0, 0, 0, 0)
         layout.addWidget(form, 6)
@@ -149,11 +155,9 @@ class DriveForm(QWidget):
         buttons = QGridLayout()
         buttons.setSpacing(6)
         for i, turn in enumerate(TURNS):
-            button = QPushButton(f"{_TURN_WORDS[turn]}  {turn}\u00b0")
+            button = ChoiceButton(f"{_TURN_WORDS[turn]}  {turn}\u00b0")
             button.setObjectName(f"faces_{turn}")
             button.setAccessibleName(f"The operator faces {_TURN_WORDS[turn]}, {turn} degrees")
-            button.setCheckable(True)
-            button.setAutoDefault(False)
             button.setMinimumHeight(36)
             sized(button, TEXT_PX)
             button.clicked.connect(lambda _=False, turn=turn: self._draft.edit(YAW, str(turn)))

@@ -47,9 +47,26 @@ def scrolling(layout: QLayout) -> QScrollArea:
     outer = QVBoxLayout(content)
     outer.setContentsMargins(0, 0, 0, 0)
     outer.addWidget(inner)
+    return _area(content, "workArea", "The cell")
+
+
+def scrolled(layout: QLayout, name: str, title: str) -> QScrollArea:
+    """A part of a page that is as high as its texts want, and scrolls where that is too much.
+
+    Args:
+        layout: Its content.
+        name: objectName.
+        title: Accessible name.
+    """
+    content = QWidget()
+    content.setLayout(layout)
+    return _area(content, name, title)
+
+
+def _area(content: QWidget, name: str, title: str) -> QScrollArea:
     area = QScrollArea()
-    area.setObjectName("workArea")
-    area.setAccessibleName("The cell")
+    area.setObjectName(name)
+    area.setAccessibleName(title)
     area.setFrameShape(QFrame.Shape.NoFrame)
     area.setFocusPolicy(Qt.FocusPolicy.NoFocus)
     area.setWidgetResizable(True)

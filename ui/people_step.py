@@ -23,7 +23,7 @@ from ui.draft_bar import heading
 from ui.labels import ElidedLabel, plain
 from ui.marks import Level, Mark
 from ui.operate_page import framed
-from ui.pages import scrolling
+from ui.pages import scrolled
 from ui.robot_step import REFRESH_S
 from ui.theme import LARGE_PX, TEXT_PX, sized
 
@@ -31,6 +31,8 @@ NOBODY = "Nobody is here yet. Enter a name; takes, a model and postures come wit
 _NAME_PX = 20
 _LONGEST_NAME = 60
 _USE_PX = 250
+_SHOWN_NAME = 16
+"""Letters of a name within a sentence."""
 
 
 class PeopleStep(QWidget):
@@ -125,9 +127,7 @@ class PeopleStep(QWidget):
         used.addWidget(self._in_use, 1)
         self._list.setSpacing(6)
         self._list.addStretch(1)
-        area = scrolling(self._list)
-        area.setObjectName("peopleArea")
-        area.setAccessibleName("People")
+        area = scrolled(self._list, "peopleArea", "People")
         entry = QHBoxLayout()
         entry.setSpacing(8)
         entry.addWidget(self._name)
@@ -243,9 +243,10 @@ class _Card(QFrame):
 
 def what_changes(row: PersonRow) -> str:
     """What a click on this person's button does, in words."""
+    name = row.name if len(row.name) <= _SHOWN_NAME else f"{row.name[:_SHOWN_NAME]}\u2026"
     if row.is_chosen:
-        return f"The model and the postures are those of {row.name}."
-    return f"Switches to the model and the postures of {row.name} once nothing may move."
+        return f"Model and postures are those of {name}."
+    return f"Switches to model and postures of {name} once nothing may move."
 
 
 def in_use_text(chosen: PersonRow | None, cell: Snapshot) -> tuple[Level, str]:

@@ -40,6 +40,7 @@ class RobotStep(QWidget):
         self._stop_test = StopTestPanel(controls, clock)
         self._lock = LockBar(controls, "robotLock")
         self._bar = DraftBar(self._draft, "robotDraft")
+        self._forms: tuple[QWidget, ...] = (self._field, self._drive)
         self._tabs = QTabWidget()
         self._lay_out()
 
@@ -49,6 +50,7 @@ class RobotStep(QWidget):
             self.refresh()
             self._next_s = setup.t_s + REFRESH_S
         self._lock.show_lock(setup.lock)
+        self._bar.setVisible(bool(self._draft.names) or self._tabs.currentWidget() in self._forms)
         self._connection.show_card(setup.robot)
         self._stop_test.show_snapshot(setup)
         if self._tabs.currentWidget() is self._field:

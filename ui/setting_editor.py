@@ -1,7 +1,7 @@
 """One setting in the window: its name, what it is set with, its unit, and what is allowed."""
 
 from PySide6.QtCore import QPointF, QRectF, QSize, Qt
-from PySide6.QtGui import QColor, QPainter, QPaintEvent, QPalette, QPen
+from PySide6.QtGui import QColor, QIcon, QPainter, QPaintEvent, QPalette, QPen, QPixmap
 from PySide6.QtWidgets import (
     QCheckBox,
     QComboBox,
@@ -24,6 +24,8 @@ Control = QLineEdit | QCheckBox | QComboBox | QPlainTextEdit
 _NUMBER_PX = 96
 _WORDS_PX = 220
 _BOXES_PX = 66
+_ICON_PX = 64
+"""Large enough for every scale of the screen."""
 
 
 class LockMark(QWidget):
@@ -57,6 +59,17 @@ def draw_lock(painter: QPainter, area: QRectF, colour: QColor) -> None:
     shackle = QRectF(0, 0, size * 0.42, size * 0.6)
     shackle.moveCenter(QPointF(area.center().x(), body.top()))
     painter.drawArc(shackle, 0, 180 * 16)
+
+
+def lock_icon(colour: str) -> QIcon:
+    """The padlock for a list."""
+    picture = QPixmap(_ICON_PX, _ICON_PX)
+    picture.fill(Qt.GlobalColor.transparent)
+    painter = QPainter(picture)
+    painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+    draw_lock(painter, QRectF(picture.rect()), QColor(colour))
+    painter.end()
+    return QIcon(picture)
 
 
 class SettingEditor(QWidget):
@@ -102,7 +115,7 @@ class SettingEditor(QWidget):
         self._control.setEnabled(not row.is_locked)
         self._lock.setVisible(row.is_locked)
         self._mark.setVisible(bool(wrong))
-        allowed = f"allowed: {row.allowed}" if row.allowed else ""
+        allowed = f"Allowed: {row.allowed}" if row.allowed else ""
         locked = f"{NEEDS_PIN} {allowed}" if row.is_locked else allowed
         self._note.setText(wrong or locked)
         self._control.setAccessibleDescription(self._note.text())
@@ -124,7 +137,7 @@ class SettingEditor(QWidget):
         said = QHBoxLayout()
         said.setSpacing(5)
         for widget in (self._lock, self._mark):
-            said.addWidget(widget, alignment=Qt.AlignmentFlag.AlignTop)
+            said.addWidget(widget)
         said.addWidget(self._note, 1)
         layout = QGridLayout(self)
         layout.setContentsMargins(0, 2, 0, 2)
@@ -134,7 +147,7 @@ class SettingEditor(QWidget):
             caption = plain(f"caption_{self.name}", TEXT_PX)
             caption.setText(caption_of(self.name))
             caption.setFixedWidth(160)
-            layout.addWidget(caption, 0, 0, Qt.AlignmentFlag.AlignTop)
+            layout.addWidget(caption, 0, 0)
         if kind in (Kind.BOXES, Kind.TEXT, Kind.CHOICE):
             layout.addLayout(entry, 0, 1)
             layout.addLayout(said, 1, 1)

@@ -20,7 +20,7 @@ _CAPTIONS: Mapping[str, str] = {
     "robot.host": "Address",
     "robot.ext_radius_mm": "Outer sphere",
     "robot.int_radius_mm": "Inner sphere",
-    "robot.margin_mm": "Margin to all of them",
+    "robot.margin_mm": "Margin to the boundary",
     "robot.floor_mm": "Floor",
     "robot.ceiling_mm": "Ceiling",
     "robot.column_radius_mm": "Robot's column, radius",
@@ -31,10 +31,10 @@ _CAPTIONS: Mapping[str, str] = {
     "robot.rx_range_deg": "Range of Rx",
     "robot.ry_range_deg": "Range of Ry",
     "robot.rz_range_deg": "Range of Rz",
-    "robot.margin_deg": "Margin of the ranges",
+    "robot.margin_deg": "Margin of the angles",
     "robot.yaw_deg": "Operator faces",
     "robot.tool_mm": "Tool point from the flange",
-    "site.trip_level_s": "Trip level of the watchdog",
+    "site.trip_level_s": "Watchdog's trip level",
 }
 """Where the name in the file would read as an abbreviation."""
 _ENDINGS = re.compile(r"_(mm_s|deg_s|mm|deg|hz|s|g)$")

@@ -14,7 +14,7 @@ from ui.draft_bar import DraftBar, LockBar, heading
 from ui.labels import plain
 from ui.marks import Level, Mark
 from ui.operate_page import framed
-from ui.pages import scrolling
+from ui.pages import scrolled
 from ui.pin_panel import PinPanel
 from ui.robot_step import REFRESH_S
 from ui.setting_editor import SettingEditor
@@ -124,9 +124,7 @@ class _Detail(QFrame):
         column.addLayout(self._place)
         column.addWidget(self._origin)
         column.addStretch(1)
-        area = scrolling(column)
-        area.setObjectName("settingDetailArea")
-        area.setAccessibleName("The setting chosen")
+        area = scrolled(column, "settingDetailArea", "The setting chosen")
         layout = QVBoxLayout(self)
         layout.setContentsMargins(0, 0, 0, 0)
         layout.addWidget(area)
@@ -169,9 +167,7 @@ class _Findings(QFrame):
         sized(self._title, LARGE_PX, is_bold=True)
         self._list = QVBoxLayout()
         self._list.setContentsMargins(0, 0, 6, 0)
-        area = scrolling(self._list)
-        area.setObjectName("findingsArea")
-        area.setAccessibleName("What is wrong in the settings files")
+        area = scrolled(self._list, "findingsArea", "What is wrong in the settings files")
         area.setMaximumHeight(_FINDINGS_PX)
         head = QHBoxLayout()
         head.addWidget(self._mark)

@@ -1,12 +1,16 @@
 """All settings in a list by table: value, where it comes from, whether it is locked or changed."""
 
 from PySide6.QtCore import QSize, Qt, Signal
+from PySide6.QtGui import QIcon
 from PySide6.QtWidgets import QAbstractItemView, QHeaderView, QTreeWidget, QTreeWidgetItem, QWidget
 
 from gestureapp.setup.values import SettingRow
+from ui.setting_editor import lock_icon
 from ui.setting_values import caption_of, matches, value_text
 from ui.settings_draft import SettingsDraft
+from ui.theme import colours_of
 
+_MARK = 3
 _COLUMNS = ("Setting", "Value", "Comes from", "")
 _NAME_ROLE = Qt.ItemDataRole.UserRole
 _ROW_PX = 26
@@ -39,6 +43,7 @@ class SettingsTree(QTreeWidget):
         self._heads: dict[str, QTreeWidgetItem] = {}
         self._tables: dict[str, list[str]] = {}
         self._wanted = ""
+        self._lock = lock_icon(colours_of(self.palette()).muted)
         self.setColumnCount(len(_COLUMNS))
         self.setHeaderLabels(list(_COLUMNS))
         self.setUniformRowHeights(True)
@@ -106,7 +111,7 @@ class SettingsTree(QTreeWidget):
         )
         for column, mode in enumerate(modes):
             header.setSectionResizeMode(column, mode)
-        for column, width_px in ((1, 130), (2, 140), (3, 84)):
+        for column, width_px in ((1, 130), (2, 130), (3, 84)):
             header.resizeSection(column, width_px)
 
     def _fill(self, item: QTreeWidgetItem, row: SettingRow) -> None:
@@ -116,7 +121,8 @@ class SettingsTree(QTreeWidget):
         value = f"{' | '.join(text.splitlines())} {row.unit}".strip()
         mark = "wrong" if row.name in draft.wrong else "changed" if is_changed else ""
         if row.is_locked:
-            mark = "\U0001f512 locked"
+            mark = "locked"
+        item.setIcon(_MARK, self._lock if row.is_locked else QIcon())
         for column, words in enumerate((caption_of(row.name), value, row.origin, mark)):
             if item.text(column) != words:
                 item.setText(column, words)

@@ -7,7 +7,6 @@ from PySide6.QtWidgets import (
     QButtonGroup,
     QGridLayout,
     QHBoxLayout,
-    QPushButton,
     QVBoxLayout,
     QWidget,
 )
@@ -15,6 +14,7 @@ from PySide6.QtWidgets import (
 from gestureapp.clock import Clock, monotonic
 from gestureapp.setup.controls import SetupControls
 from gestureapp.setup.values import Outcome, SetupSnapshot, StopTestPhase, StopTestView
+from ui.choice_button import ChoiceButton
 from ui.connection_panel import date_text
 from ui.draft_bar import heading
 from ui.hold_button import HoldButton
@@ -98,12 +98,10 @@ class StopTestPanel(QWidget):
         directions = QGridLayout()
         directions.setSpacing(6)
         for i, label in enumerate(DIRECTIONS):
-            button = QPushButton(f"{label}  {_WORDS[label]}")
+            button = ChoiceButton(f"{label}  {_WORDS[label]}")
             button.setObjectName(f"stopTest_{label}")
             button.setAccessibleName(f"Move {label}, {_WORDS[label]}")
-            button.setCheckable(True)
             button.setChecked(label == self._chosen)
-            button.setAutoDefault(False)
             button.setMinimumSize(130, 38)
             button.clicked.connect(lambda _=False, label=label: self._choose(label))
             self._group.addButton(button)

@@ -2,22 +2,22 @@
 
 from collections.abc import Mapping
 from dataclasses import replace
-from enum import Enum
 
 from PySide6.QtCore import Qt
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QAbstractButton, QApplication, QLabel, QWidget
 
-from gestureapp.config import Settings
+from gestureapp.config import KeepOutSettings, Settings
 from gestureapp.sensing.values import LinkState, Side, StreamHealth
 from gestureapp.settings_check import (
-    RANGES,
     bad_pairs,
     named_values,
-    unit_of,
     why_not_below,
     why_out_of_range,
 )
+from gestureapp.settings_text import about, allowed, choices
+from gestureapp.settings_values import plain
+from gestureapp.settings_words import unit_of
 from gestureapp.setup.values import (
     CalibrationView,
     FindingView,
@@ -130,20 +130,13 @@ def six(n_done: int, progress: float = 0.4) -> tuple[PositionView, ...]:
 
 
 def every_setting(settings: Settings | None = None) -> tuple[SettingRow, ...]:
-    """All settings as a window gets them, with their real ranges."""
-    return tuple(
-        SettingRow(
-            name,
-            f"What {name} means, in a sentence or two as the file has it.",
-            _as_in_file(value),
-            unit_of(name),
-            _allowed(owner, name),
-            "built-in",
-            is_locked=False,
-            choices=tuple(each.value for each in type(value)) if isinstance(value, Enum) else (),
-        )
-        for name, owner, value in named_values(Settings() if settings is None else settings)
-    )
+    """All settings as a window gets them, with their real meanings and ranges."""
+    rows = []
+    for name, owner, value in named_values(Settings() if settings is None else settings):
+        key = name.rpartition(".")[2]
+        said = (about(owner, key), plain(value), unit_of(name), allowed(owner, key))
+        rows.append(SettingRow(name, *said, "built-in", False, choices(owner, key)))
+    return tuple(rows)
 
 
 def wrong_in(rows: tuple[SettingRow, ...], changes: Mapping[str, object]) -> dict[str, str]:
@@ -151,7 +144,7 @@ def wrong_in(rows: tuple[SettingRow, ...], changes: Mapping[str, object]) -> dic
     owners = {name: owner for name, owner, _ in named_values(Settings())}
     wrong = {}
     for name, value in changes.items():
-        frozen = tuple(value) if isinstance(value, list) and not name.endswith("outs") else value
+        frozen = tuple(map(_as_kept, value)) if isinstance(value, list) else value
         if text := why_out_of_range(owners[name], name.rpartition(".")[2], frozen):
             wrong[name] = text
     values = {row.name: row.value for row in rows} | dict(changes)
@@ -160,17 +153,10 @@ def wrong_in(rows: tuple[SettingRow, ...], changes: Mapping[str, object]) -> dic
     return wrong
 
 
-def _as_in_file(value: object) -> object:
-    if isinstance(value, Enum):
-        return value.value
-    if isinstance(value, tuple):
-        return list(value)
-    return "" if value is None else value
-
-
-def _allowed(owner: type, name: str) -> str:
-    allowed = RANGES.get((owner, name.rpartition(".")[2]))
-    return "" if allowed is None else f"{allowed} {unit_of(name)}".strip()
+def _as_kept(item: object) -> object:
+    if isinstance(item, dict):
+        return KeepOutSettings(item["name"], tuple(item["low_mm"]), tuple(item["high_mm"]))
+    return item
 
 
 class FakeSetup:
