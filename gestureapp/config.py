@@ -54,6 +54,9 @@ class SiteSettings:
         posture_leave_deg: It stays so up to this angle (hysteresis).
         posture_debounce: Samples in a row that a new posture must show.
         stop_seen_s: How long the stop posture must have been seen before arming.
+        calibration_days: A sensor calibrated longer ago must be calibrated anew before arming.
+        level_check_hours: One whose level was checked longer ago must be checked before arming; 0
+            where no such check is wanted.
     """
 
     drive_mode: DriveMode = DriveMode.HOLD_TO_RUN
@@ -67,6 +70,8 @@ class SiteSettings:
     posture_leave_deg: float = 40.0
     posture_debounce: int = 3
     stop_seen_s: float = 0.5
+    calibration_days: int = 180
+    level_check_hours: float = 12.0
 
 
 @dataclass(frozen=True, slots=True)

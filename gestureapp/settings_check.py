@@ -100,6 +100,8 @@ RANGES: Final[Mapping[tuple[type, str], Range]] = {
     (SiteSettings, "posture_leave_deg"): Range(5.0, 44.0),
     (SiteSettings, "posture_debounce"): Range(1, 20),
     (SiteSettings, "stop_seen_s"): Range(0.1, 5.0),
+    (SiteSettings, "calibration_days"): Range(1, 730),
+    (SiteSettings, "level_check_hours"): Range(0.0, 168.0),
     (RobotSettings, "port"): Range(1, 65535),
     (RobotSettings, "ext_radius_mm"): Range(100.0, 1378.5),
     (RobotSettings, "int_radius_mm"): Range(100.0, 1378.5),

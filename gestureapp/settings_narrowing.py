@@ -15,6 +15,10 @@ def _at_least(new: Any, below: Any) -> bool:  # noqa: ANN401
     return bool(new >= below)
 
 
+def _at_most_if_any(new: Any, below: Any) -> bool:  # noqa: ANN401
+    return below == 0 or bool(0 < new <= below)
+
+
 def _the_same_or_none(new: Any, below: Any) -> bool:  # noqa: ANN401
     return below in (0, new)
 
@@ -37,6 +41,8 @@ NARROWER: Final[Mapping[str, tuple[Callable[[Any, Any], bool], str]]] = {
     "site.control_limit_s": (_at_most, "at most"),
     "site.gui_limit_s": (_at_most, "at most"),
     "site.stop_on_right_lost": (_at_least, "nothing but"),
+    "site.calibration_days": (_at_most, "at most"),
+    "site.level_check_hours": (_at_most_if_any, "above 0 and at most"),
     "site.rate_min_hz": (_at_least, "at least"),
     "site.rate_max_hz": (_at_most, "at most"),
     "site.stop_seen_s": (_at_least, "at least"),

@@ -14,6 +14,8 @@ UNITS: Final[Mapping[str, str]] = {
     "_mm": "mm",
     "_deg": "deg",
     "_hz": "Hz",
+    "_days": "days",
+    "_hours": "hours",
     "_s": "s",
     "_g": "g",
 }

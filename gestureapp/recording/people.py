@@ -47,10 +47,20 @@ def person_folder(data: Path, person: str) -> Path:
         raise RecordingError(people, "a person needs a name; type one")
     if len(name) > MAX_NAME_CHARS:
         raise RecordingError(people, f"a name has at most {MAX_NAME_CHARS} characters; shorten it")
+    return people / plain_name(name, "person")
+
+
+def plain_name(name: str, otherwise: str) -> str:
+    """A name for a file or folder: what can be kept of it on any disk, and a digest of all of it.
+
+    Args:
+        name: Any text.
+        otherwise: What stands before the digest where nothing of it can be kept.
+    """
     plain = unicodedata.normalize("NFKD", name).encode("ascii", "ignore").decode().lower()
-    slug = _NOT_PLAIN.sub("-", plain)[:_SLUG_CHARS].strip("-") or "person"
+    slug = _NOT_PLAIN.sub("-", plain)[:_SLUG_CHARS].strip("-") or otherwise
     digest = hashlib.sha256(name.encode("utf-8", "surrogatepass")).hexdigest()[:_DIGEST_CHARS]
-    return people / f"{slug}-{digest}"
+    return f"{slug}-{digest}"
 
 
 def model_path(data: Path, person: str) -> Path:

@@ -3,6 +3,7 @@
 from dataclasses import dataclass, field
 from enum import Enum
 
+from gestureapp.recording.person_profile import Handedness as Handedness
 from gestureapp.sensing.values import Side, StreamHealth
 from gestureapp.settings_check import SettingsFinding
 
@@ -386,13 +387,6 @@ class LockView:
     has_pin: bool = False
     is_open: bool = True
     text: str = ""
-
-
-class Handedness(Enum):
-    """Which hand shows the gestures; the value is the word on the screen."""
-
-    RIGHT = "right-handed"
-    LEFT = "left-handed"
 
 
 @dataclass(frozen=True, slots=True)
