@@ -11,6 +11,7 @@ import importlib
 import socket
 import sys
 import urllib.parse
+from pathlib import Path
 from typing import Any, Protocol
 
 import serial
@@ -27,6 +28,9 @@ MAX_READ_BYTES = 4096
 
 BAUD = 115200
 """For ports with a real line; Bluetooth ports ignore it. 100 lines of 30 bytes need 30,000."""
+
+IN_USE = "is in use by another program"
+"""Stands in the reason of a port that somebody else has."""
 
 _KEEPALIVE = (("TCP_KEEPIDLE", 5), ("TCP_KEEPINTVL", 2), ("TCP_KEEPCNT", 3))
 """Seconds, seconds, probes: a peer that vanished without a word is noticed after some 11 s."""
@@ -152,9 +156,10 @@ def open_failure(sensor: str, where: str, error: Exception) -> SensorError:
     if isinstance(error, socket.gaierror):
         return SensorNotFound(sensor, f"{where}: no host has this name: check the address")
     if code in _BUSY or (code in _FORBIDDEN and sys.platform == "win32"):
-        return SensorBusy(sensor, f"{where} is in use by another program: close that program")
+        return SensorBusy(sensor, f"{where} {IN_USE}: close that program")
     if code in _FORBIDDEN:
-        remedy = "add the user to the dialout group (sudo adduser $USER dialout), log in again"
+        group = group_of(where) or "dialout"
+        remedy = f"add the user to the {group} group (sudo adduser $USER {group}), log in again"
         return SensorError(sensor, f"no permission to open {where}: {remedy}")
     if code in _NOT_THERE:
         remedy = "plug the receiver in, or choose another port"
@@ -165,6 +170,14 @@ def open_failure(sensor: str, where: str, error: Exception) -> SensorError:
     if isinstance(error, ValueError):
         return SensorError(sensor, f"{where} is no port: give a device or socket://HOST:PORT")
     return SensorError(sensor, f"{where} cannot be opened ({error}): choose another port")
+
+
+def group_of(device: str) -> str:
+    """Name of the group that may use a device file; empty where there is no such thing."""
+    try:
+        return Path(device).group()
+    except (OSError, KeyError, ValueError, NotImplementedError):
+        return ""
 
 
 def _address(sensor: str, url: str) -> tuple[str, tuple[str, int]]:
