@@ -72,3 +72,11 @@ class LineSplitter:
             reason = f"the rest of a {self._unit} that was too long"
             return Garbage(len(line), line[:FIRST_BYTES], reason)
         return line
+
+
+def readable_bytes(data: bytes) -> str:
+    """Bytes as a person can read them: text as text, everything else in hexadecimal."""
+    text = data.rstrip(b"\r\n")
+    if text and all(0x20 <= byte < 0x7F for byte in text):
+        return text.decode("ascii")
+    return data.hex(" ")

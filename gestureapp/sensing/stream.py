@@ -2,6 +2,7 @@
 
 import math
 
+from gestureapp.sensing.lines import readable_bytes
 from gestureapp.sensing.rate import RATE_SPAN_S, RateMeter, WorstGap
 from gestureapp.sensing.values import (
     Battery,
@@ -178,10 +179,17 @@ class StreamTracker:
             n_samples=self._n_samples,
             n_bad=self._n_bad,
             n_lost=self._n_lost,
+            bad_bytes=self._bad_bytes(link),
             jitter_s=self._rate.jitter_s(now_s),
             identity=self._identity,
             battery_percent=self._battery_percent,
         )
+
+    def _bad_bytes(self, link: LinkState) -> str:
+        """The offending bytes, while they are what is wrong."""
+        if link is not LinkState.WRONG_DATA or not self._is_garbage_newest:
+            return ""
+        return readable_bytes(self._garbage.first_bytes) if self._garbage is not None else ""
 
     def _link(self, now_s: float, age_s: float) -> tuple[LinkState, str]:
         """The state and what is wrong with it; empty words when samples come and change."""

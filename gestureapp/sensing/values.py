@@ -145,6 +145,8 @@ class StreamHealth:
         jitter_s: Standard deviation of the times between two arrivals, over the last two seconds.
         identity: What the sensor calls itself; empty when it does not.
         battery_percent: What it says of its battery, 0 to 100; None when it says nothing.
+        bad_bytes: The newest bytes that were no frame, as a person can read them; empty unless
+            the data are wrong.
     """
 
     side: Side
@@ -162,6 +164,7 @@ class StreamHealth:
     jitter_s: float = 0.0
     identity: str = ""
     battery_percent: float | None = None
+    bad_bytes: str = ""
 
     @property
     def is_ok(self) -> bool:
