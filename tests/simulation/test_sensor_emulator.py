@@ -1,5 +1,6 @@
 """The sensor emulator in a thread, over real sockets, read with the product's decoders."""
 
+import itertools
 import json
 import socket
 from collections.abc import Callable, Iterator
@@ -22,6 +23,7 @@ from gestureapp.sensing.values import (
 )
 from gestureapp.simulation.control_link import ControlLink
 from gestureapp.simulation.sensor import SensorEmulator, SensorOptions
+from gestureapp.simulation.sensor_radio import RadioOptions
 
 LIMIT_S = 10.0
 
@@ -81,7 +83,7 @@ def reader(right: SensorEmulator) -> Iterator[Reader]:
     client.close()
 
 
-@pytest.mark.parametrize("name", ["csv", "adxl330"])
+@pytest.mark.parametrize("name", ["csv", "adxl330", "witmotion", "binary"])
 @pytest.mark.parametrize("side", list(Side))
 def test_a_hand_at_rest_reads_one_g_upwards_in_every_protocol(side, name):
     with SensorEmulator(options(side, name)) as emulator:
@@ -91,7 +93,37 @@ def test_a_hand_at_rest_reads_one_g_upwards_in_every_protocol(side, name):
     for frame in frames:
         assert protocol(name).to_nominal_g(frame.raw) == pytest.approx((0.0, 0.0, 1.0), abs=0.15)
     numbers = [frame.counter for frame in frames[1:]]
+    if name == "witmotion":
+        assert set(numbers) == {None}
+        return
     assert numbers == list(range(numbers[0], numbers[0] + len(numbers)))
+
+
+@pytest.mark.parametrize("name", ["witmotion", "binary"])
+@pytest.mark.parametrize("kind", ["garbage", "truncated"])
+def test_a_garbled_binary_stream_is_garbage_and_then_good_again(name, kind):
+    with SensorEmulator(options(protocol_name=name)) as emulator:
+        client = Reader(emulator.port, name)
+        with ControlLink("sensor", "127.0.0.1", emulator.control_port) as link:
+            client.frames(3)
+            link.ask({"do": "fault", "kind": kind})
+            client.until(lambda events: any(isinstance(event, Garbage) for event in events))
+            link.ask({"do": "fault", "kind": "none"})
+            client.frames(40)
+        client.close()
+
+
+def test_over_a_radio_frames_come_in_bursts_and_in_order():
+    radio = RadioOptions(burst=5, gap_s=(0.02, 0.03))
+    with SensorEmulator(options(radio=radio)) as emulator:
+        client = Reader(emulator.port)
+        events = client.until(lambda found: len(only_frames(found)) >= 50)
+        with ControlLink("sensor", "127.0.0.1", emulator.control_port) as link:
+            sent_s = [line["sent_s"] for line in link.ask({"do": "log", "count": 50})["log"]]
+        client.close()
+    assert [event for event in events if not isinstance(event, Frame)] == []
+    together = sum(after - before < 0.002 for before, after in itertools.pairwise(sent_s))
+    assert together > len(sent_s) / 2
 
 
 def test_the_left_arm_is_seen_in_start_and_in_stop_again():
@@ -268,6 +300,10 @@ def test_a_port_in_use_is_named_with_the_remedy(right):
         ({"seed": -1}, "seed"),
         ({"session": 1 << 40}, "session"),
         ({"protocol": "adxl330", "has_counter": False}, "counter"),
+        ({"protocol": "binary", "has_counter": False}, "counter"),
+        ({"identity": "a name of more than 20 bytes"}, "identity"),
+        ({"identity": "two\nlines"}, "identity"),
+        ({"battery_percent": 101}, "battery"),
     ],
 )
 def test_options_that_cannot_be_are_refused_by_name(wrong, field):
