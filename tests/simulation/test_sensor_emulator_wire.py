@@ -1,6 +1,7 @@
 """The emulator's encoders against the product's decoders, which share no code."""
 
 import random
+from pathlib import Path
 
 import pytest
 from hypothesis import given, settings
@@ -90,19 +91,29 @@ def test_a_cut_frame_has_lost_its_end_and_a_cut_line_a_field(name, number, accel
     assert whole.startswith(rest)
 
 
-def test_the_bytes_of_a_binary_sample_are_those_of_the_documentation():
-    data = encode_binary(258, (0.0, -0.5, 1.0), 80)
-    assert data.hex(" ") == "05 01 01 02 01 01 08 18 fc d0 07 50 49 92 00"
-
-
-def test_the_bytes_of_a_name_are_those_of_the_documentation():
-    assert encode_identity("arm 7").hex(" ") == "0a 01 02 61 72 6d 20 37 17 47 00"
-
-
-def test_the_bytes_of_a_witmotion_frame_are_those_of_the_documentation():
-    data = encode_witmotion(None, (0.0, -0.5, 1.0))
-    assert data[:11].hex(" ") == "55 51 00 00 00 fc 00 08 c4 09 77"
-    assert len(data) == 33
+@pytest.mark.parametrize(
+    ("data", "shown"),
+    [
+        (
+            encode_csv(258, (0.0, -0.5, 1.0)),
+            "32 35 38 2c 30 2e 30 30 30 30 2c 2d 30 2e 35 30 30 30 2c 31 2e 30 30 30 30 0a",
+        ),
+        (
+            encode_adxl330(258, (0.0, -0.5, 1.0)),
+            "32 35 38 2c 35 31 32 2c 34 36 31 2c 36 31 34 0d 0a",
+        ),
+        (encode_witmotion(None, (0.0, -0.5, 1.0))[:11], "55 51 00 00 00 fc 00 08 c4 09 77"),
+        (
+            encode_binary(258, (0.0, -0.5, 1.0), 80),
+            "05 01 01 02 01 01 08 18 fc d0 07 50 49 92 00",
+        ),
+        (encode_identity("arm 7"), "0a 01 02 61 72 6d 20 37 17 47 00"),
+    ],
+)
+def test_the_bytes_are_those_of_the_documentation(data: bytes, shown: str):
+    assert data.hex(" ") == shown
+    page = (Path(__file__).parents[2] / "docs" / "sensors.md").read_text()
+    assert shown in " ".join(page.replace("`", "").replace("|", "").split())
 
 
 @settings(deadline=None)
