@@ -11,6 +11,11 @@ from typing import Final
 SCHEMA_VERSION = 1
 
 
+YAWS_DEG: Final = (0, 90, 180, -90)
+"""Which way the operator may face: a turn about an oblique axis is no single increment in Rx or Ry,
+and a push to the front would run along no axis of the robot's."""
+
+
 class DriveMode(Enum):
     """What ends a move before the edge of the field."""
 
@@ -22,20 +27,18 @@ class DriveMode(Enum):
 
 @dataclass(frozen=True, slots=True)
 class SensorSettings:
-    """One sensor: where it is and how its readings become g.
+    """One sensor: where it is and what it speaks. Its calibration is kept with the sensor.
 
     Attributes:
         port: Anything ``serial.serial_for_url`` opens: a device, ``socket://HOST:PORT``,
             ``loop://``.
         protocol: Name of a decoder.
-        offset: Reading at zero g per axis, in g of the nominal scale.
-        gain: Factor per axis after the offset; 1 is the nominal sensitivity.
+        name: What a person calls the sensor; may be empty.
     """
 
     port: str = ""
     protocol: str = "csv"
-    offset: tuple[float, float, float] = (0.0, 0.0, 0.0)
-    gain: tuple[float, float, float] = (1.0, 1.0, 1.0)
+    name: str = ""
 
 
 @dataclass(frozen=True, slots=True)
@@ -121,6 +124,9 @@ class RobotSettings:
         margin_deg: How far before the end of a range a rotation ends.
         frame: Coordinate frame of the increment: 0 base or 1 robot; the field of operation
             is known in no other.
+        yaw_deg: Which way the operator faces, seen from the robot's base and turned to the left: 0
+            as the robot's +X, 90 as its +Y, 180 towards its -X, -90 as its -Y; nothing between,
+            as a rotation about an oblique axis is no single one about X or Y.
         tool: Tool number, 0 to 23; the controller must tell its position for the same one.
         tool_mm: Tool point seen from the flange, as the controller's tool file has it.
         supervision_input: First network input of the byte that is toggled for a ladder on the
@@ -145,6 +151,7 @@ class RobotSettings:
     rz_range_deg: tuple[float, float] = (-90.0, 90.0)
     margin_deg: float = 2.0
     frame: int = 1
+    yaw_deg: int = 0
     tool: int = 0
     tool_mm: tuple[float, float, float] = (0.0, 0.0, 0.0)
     supervision_input: int = 0

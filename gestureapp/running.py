@@ -22,6 +22,7 @@ from gestureapp.guided.trainer import Trainer
 from gestureapp.recording.people import last_person
 from gestureapp.recording.session_writer import SessionWriter
 from gestureapp.robot.lock import find_other
+from gestureapp.sensing.values import Side
 from gestureapp.simulation.demo import DemoCell, DemoOptions
 from gestureapp.simulation.operator import OperatorClient
 
@@ -104,6 +105,9 @@ def running_cell(
         cell = Cell(settings, recorder.put, lambda: _view_of(recorder), log_file, time.time)
         opened.callback(cell.shutdown)
         cell.start()
+        if settings.is_simulation:
+            for side in Side:
+                cell.judge_sensor(side, "")
         if last_time is not None:
             cell.tell(last_time.event)
         operator = emulators.operator if emulators is not None else None

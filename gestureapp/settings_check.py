@@ -13,10 +13,10 @@ from typing import Any, Final
 from gestureapp.config import (
     BEAT_RANGE_S,
     N_TAKES_RANGE,
+    YAWS_DEG,
     JointSettings,
     KeepOutSettings,
     RobotSettings,
-    SensorSettings,
     Settings,
     SiteSettings,
     TrainingSettings,
@@ -88,8 +88,6 @@ class SettingsFinding:
 
 
 RANGES: Final[Mapping[tuple[type, str], Range]] = {
-    (SensorSettings, "offset"): Range(-1.0, 1.0),
-    (SensorSettings, "gain"): Range(0.5, 2.0),
     (SiteSettings, "trip_level_s"): Range(0.05, 0.3),
     (SiteSettings, "control_limit_s"): Range(0.1, 0.5),
     (SiteSettings, "gui_limit_s"): Range(0.2, 1.0),
@@ -121,6 +119,7 @@ RANGES: Final[Mapping[tuple[type, str], Range]] = {
     (RobotSettings, "rz_range_deg"): Range(-360.0, 360.0),
     (RobotSettings, "margin_deg"): Range(0.1, 45.0),
     (RobotSettings, "frame"): Range(0, 1),
+    (RobotSettings, "yaw_deg"): Range(min(YAWS_DEG), max(YAWS_DEG)),
     (RobotSettings, "tool"): Range(0, 23),
     (RobotSettings, "supervision_input"): Range(0, NETWORK_INPUTS[-1]),
     # Slower, and a ladder's timer would let a robot run for long; faster, and moves would wait.
@@ -197,6 +196,8 @@ def why_out_of_range(owner: type, name: str, value: object) -> str:
         return _why_no_address(value)
     if (owner, name) == (RobotSettings, "supervision_input"):
         return _why_no_input(value)
+    if (owner, name) == (RobotSettings, "yaw_deg"):
+        return _why_no_yaw(value)
     allowed = RANGES.get((owner, name))
     if allowed is None:
         return ""
@@ -208,6 +209,13 @@ def why_out_of_range(owner: type, name: str, value: object) -> str:
     if name.endswith("_range_deg") and not numbers[0] < numbers[1]:
         return f"{shown(value)} is no range; the first number must be below the second"
     return ""
+
+
+def _why_no_yaw(yaw_deg: object) -> str:
+    if yaw_deg in YAWS_DEG:
+        return ""
+    allowed = ", ".join(map(str, YAWS_DEG[:-1]))
+    return f"{shown(yaw_deg)} is not allowed; allowed is {allowed} or {YAWS_DEG[-1]} deg"
 
 
 def _why_no_input(number: object) -> str:

@@ -9,6 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from gestureapp.config import (
+    YAWS_DEG,
     DriveMode,
     PersonSettings,
     RobotSettings,
@@ -86,7 +87,8 @@ def test_every_kind_of_value_is_taken(layer):
     path = layer(
         _site(
             '[site]\ndrive_mode = "start_stop"\nstop_on_right_lost = false\nposture_debounce = 5\n'
-            "trip_level_s = 0.2\n[left]\noffset = [0, -0.5, 0.25]\n[robot]\nspeed_mm_s = 50\n"
+            'trip_level_s = 0.2\n[left]\nname = "blue"\n[robot]\ntool_mm = [0, -0.5, 25]\n'
+            "speed_mm_s = 50\n"
             'rx_range_deg = [90, 270.5]\n[person]\nmodel = "ada.json"'
         )
     )
@@ -99,7 +101,7 @@ def test_every_kind_of_value_is_taken(layer):
         posture_debounce=5,
         trip_level_s=0.2,
     )
-    assert loaded.left.offset == (0.0, -0.5, 0.25)
+    assert (loaded.left.name, loaded.robot.tool_mm) == ("blue", (0.0, -0.5, 25.0))
     assert isinstance(loaded.robot.speed_mm_s, float)
     assert loaded.robot.rx_range_deg == (90.0, 270.5)
     assert loaded.person.model == path.parent / "ada.json"
@@ -128,6 +130,8 @@ def _numbers(owner, name, value):
     allowed = RANGES[owner, name]
     if name == "supervision_input":
         return st.sampled_from([0, *NETWORK_INPUTS])
+    if name == "yaw_deg":
+        return st.sampled_from(YAWS_DEG)
     if isinstance(value, int):
         return st.integers(int(allowed.low), int(allowed.high))
     one = st.floats(allowed.low, allowed.high)
@@ -255,10 +259,10 @@ def test_limits_are_allowed_and_what_lies_beyond_is_not(layer, table, name, low,
         ("[robot]\nhost.name = 'x'", "allowed is a text in quotes"),
         ("[site]\nstop_on_right_lost = 1", "allowed is true or false"),
         ("[site]\ndrive_mode = 'fly'", 'allowed is "hold_to_run" or "start_stop"'),
-        ("[left]\noffset = [0, 0]", "allowed is a list of 3 numbers"),
-        ("[left]\noffset = [0, 0, 'x']", "allowed is a number"),
-        ("[left]\ngain = [1, 1, 2.1]", "allowed is 0.5 to 2"),
-        ("[left]\ngain = 1.0", "allowed is a list of 3 numbers"),
+        ("[robot]\ntool_mm = [0, 0]", "allowed is a list of 3 numbers"),
+        ("[robot]\ntool_mm = [0, 0, 'x']", "allowed is a number"),
+        ("[robot]\nyaw_deg = 45", "allowed is 0, 90, 180 or -90 deg"),
+        ("[robot]\ntool_mm = 1.0", "allowed is a list of 3 numbers"),
         ("[robot]\nrx_range_deg = [90, 90]", "first number must be below the second"),
         ("[person]\nmodel = 5", "the name of a file"),
     ],
@@ -310,13 +314,13 @@ def test_an_unknown_key_is_reported_with_its_line(layer, text, setting, line, wo
 
 
 def test_every_wrong_thing_is_reported_at_once(layer):
-    path = layer(_site("[robot]\ntool = 99\nport = 0\n[site]\nx = 1\n[left]\ngain = 3"))
+    path = layer(_site("[robot]\ntool = 99\nport = 0\n[site]\nx = 1\n[left]\nport = 3"))
     _, found = read_settings([path])
     assert [(one.setting, one.line) for one in found] == [
         ("robot.tool", 3),
         ("robot.port", 4),
         ("site.x", 6),
-        ("left.gain", 8),
+        ("left.port", 8),
     ]
 
 

@@ -2,7 +2,7 @@
 
 import pytest
 
-from gestureapp.cell.engine import limits_of
+from gestureapp.cell.limits import limits_of
 from gestureapp.config import KeepOutSettings, Settings
 from gestureapp.errors import SettingsRefused
 from gestureapp.robot import messages as m

@@ -52,7 +52,7 @@ def test_what_bears_on_motion_and_is_wrong_is_one_line_and_no_start(path, text, 
 
 
 @pytest.mark.parametrize(
-    "text", ["[left]\nprt = ''", "left = 3", "[right]\ngain = 3", "[person]\nmodel = 5"]
+    "text", ["[left]\nprt = ''", "left = 3", "[right]\nport = 3", "[person]\nmodel = 5"]
 )
 def test_what_does_not_bear_on_motion_is_told_and_started_with(path, text):
     path.write_text(f"schema = 1\n{text}\n")

@@ -7,7 +7,7 @@ from PySide6.QtCore import QSize, Qt, QTimer
 from PySide6.QtGui import QCloseEvent, QResizeEvent
 from PySide6.QtWidgets import QApplication, QHBoxLayout, QMainWindow, QVBoxLayout, QWidget
 
-from gestureapp.cell.controls import CellControls
+from gestureapp.cell.controls import TRAINING_OPEN, CellControls
 from gestureapp.cell.last_time import LastTime
 from gestureapp.cell.snapshot import CellState, Snapshot
 from gestureapp.clock import Clock, monotonic
@@ -121,7 +121,7 @@ class MainWindow(QMainWindow):
         left, self._place = self._place, place
         self._leave(left)
         if place is Place.TRAIN:
-            self._cell.hold_for_training(True)
+            self._cell.hold_arming(TRAINING_OPEN)
         elif place is Place.SETUP and self._setup is not None:
             self._setup.enter()
         self._rail.show_place(place)
@@ -179,7 +179,7 @@ class MainWindow(QMainWindow):
         """What was under way on a page ends with it, and so does its hold on arming."""
         if place is Place.TRAIN and self._train is not None:
             self._train.leave()
-            self._cell.hold_for_training(False)
+            self._cell.hold_arming("")
         elif place is Place.SETUP and self._setup is not None:
             self._setup.leave()
         self._notice.show_text("")

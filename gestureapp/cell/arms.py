@@ -1,11 +1,11 @@
 """What the two arms' sensors say: the health of both streams, and the left arm's posture. Pure."""
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 
 from gestureapp.cell import events as e
 from gestureapp.cell.inputs import SensorTold
 from gestureapp.config import SiteSettings
-from gestureapp.sensing.posture import PostureDetector
+from gestureapp.sensing.posture import BUILT_IN, LeftPostures, PostureDetector
 from gestureapp.sensing.stream import StreamTracker
 from gestureapp.sensing.values import ArmPosture, Sample, Side, StreamHealth
 
@@ -17,13 +17,19 @@ class Arms:
     """Both streams and the posture. Owned by the control thread."""
 
     def __init__(self, site: SiteSettings) -> None:
-        self._trackers = {
-            side: StreamTracker(side, site.trip_level_s, site.rate_min_hz, site.rate_max_hz)
-            for side in Side
-        }
-        self._detector = PostureDetector(
-            site.posture_enter_deg, site.posture_leave_deg, site.posture_debounce
-        )
+        self._trackers = {side: _tracker(side, site) for side in Side}
+        self._detector = _detector(site, BUILT_IN)
+
+    def use(self, site: SiteSettings, postures: LeftPostures, renewed: Iterable[Side]) -> None:
+        """Judge by these from now on, and these sensors anew. Only while nothing may move.
+
+        The left arm is in no posture until it shows one.
+        """
+        for tracker in self._trackers.values():
+            tracker.set_limits(site.trip_level_s, site.rate_min_hz, site.rate_max_hz)
+        for side in renewed:
+            self._trackers[side] = _tracker(side, site)
+        self._detector = _detector(site, postures)
 
     @property
     def posture(self) -> ArmPosture:
@@ -68,3 +74,12 @@ class Arms:
             return None
         self._detector.reset()
         return e.LeftPosture(now_s, ArmPosture.NEITHER)
+
+
+def _tracker(side: Side, site: SiteSettings) -> StreamTracker:
+    return StreamTracker(side, site.trip_level_s, site.rate_min_hz, site.rate_max_hz)
+
+
+def _detector(site: SiteSettings, postures: LeftPostures) -> PostureDetector:
+    angles_deg = (site.posture_enter_deg, site.posture_leave_deg)
+    return PostureDetector(*angles_deg, site.posture_debounce, postures)

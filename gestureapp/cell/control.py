@@ -6,22 +6,26 @@ without a thread; ``run`` is the thread. Nothing here waits for window, disk or 
 
 import queue
 import threading
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import replace
 
 from gestureapp.cell import events as e
+from gestureapp.cell.adjustments import Adjustments, Taken
 from gestureapp.cell.arms import Arms
 from gestureapp.cell.ear import Ear, ModelInUse
+from gestureapp.cell.guardian_keeper import GuardianKeeper
 from gestureapp.cell.inputs import (
     GuardianPort,
     GuardianSaid,
     Input,
     ModelChosen,
+    ReaderPort,
     SampleCame,
     SensorTold,
     ServoAsked,
-    TrainingHeld,
+    SetupInput,
 )
+from gestureapp.cell.limits import field_of
 from gestureapp.cell.machine import MachineState, Rules, step
 from gestureapp.cell.readiness import Facts, find_blockers
 from gestureapp.cell.records import Record, Recorder, Topic, fields_of
@@ -30,32 +34,25 @@ from gestureapp.cell.snapshot import Blocker, CellState, RecordingView, Snapshot
 from gestureapp.cell.story import Story
 from gestureapp.cell.words import sentence
 from gestureapp.clock import Clock
-from gestureapp.config import Settings
-from gestureapp.errors import GuardianLost
+from gestureapp.config import Settings, SiteSettings
 from gestureapp.robot import messages as m
-from gestureapp.robot.values import StopReason
-from gestureapp.robot.workspace import FieldOfOperation
+from gestureapp.robot.values import Direction, StopReason
 from gestureapp.sensing.values import ArmPosture, Sample, Side
 
 TICK_S = 0.01
 """The control thread's own clock; also the longest time between two heartbeats."""
 JUDGE_S = 0.05
 """How often readiness is judged."""
-RESTART_S = 0.2
-"""Between two attempts to start a guardian."""
-TRAINING_OPEN = "training is open"
-SILENT_TICKS = 30
-"""A guardian is heard every 0.1 s. Counted in our own ticks: we may have stood still ourselves."""
 
 
 class Control:
     """Drives the cell machine. Belongs to the control thread, but for ``put`` and ``picture``.
 
     Args:
-        settings: Of the cell.
-        field: Where the tool may go.
+        settings: Of the cell, at first.
         model: What gestures are recognised with at first.
-        start_guardian: Starts a guardian; raises GuardianLost.
+        start_guardian: Starts a guardian with the limits of these settings; raises GuardianLost.
+        readers: Of both sensors.
         gui_seen_s: When the window's timer last ran.
         record: Takes everything that happens.
         clock: Monotonic seconds.
@@ -63,6 +60,7 @@ class Control:
 
     Attributes:
         state: The machine's.
+        adjusted: Settings and postures in use, and what setting up still waits to change.
         picture: The newest snapshot; any thread.
         at_rest: Set while nothing may move; any thread may wait for it.
     """
@@ -70,28 +68,22 @@ class Control:
     def __init__(
         self,
         settings: Settings,
-        field: FieldOfOperation,
         model: ModelInUse,
-        start_guardian: Callable[[], GuardianPort],
+        start_guardian: Callable[[Settings], GuardianPort],
+        readers: Mapping[Side, ReaderPort],
         gui_seen_s: Callable[[], float],
         record: Recorder,
         clock: Clock,
         wall_clock: Clock,
     ) -> None:
-        site = settings.site
-        self._settings, self._field = settings, field
-        self._ear, self._lock = Ear(model, record), ""
-        self._start_guardian, self._gui_seen_s = start_guardian, gui_seen_s
-        self._record, self._clock = record, clock
-        self._rules = Rules(site.drive_mode, site.stop_on_right_lost, bool(settings.robot.host))
+        self.adjusted = Adjustments(settings, readers, record)
+        self._ear = Ear(model, record)
+        self._gui_seen_s, self._record, self._clock = gui_seen_s, record, clock
+        self._field, self._rules = field_of(settings), _rules_of(settings)
         self._inbox: queue.SimpleQueue[Input] = queue.SimpleQueue()
-        self._arms = Arms(site)
+        self._arms = Arms(settings.site)
         self._robot = RobotMemory(settings.robot)
-        self._guardian: GuardianPort | None = None
-        self._guardian_tried_s = float("-inf")
-        self._guardian_trouble = ""
-        self._n_silent = 0
-        self._owed_stop: m.Stop | None = None
+        self._guardian = GuardianKeeper(lambda: start_guardian(self.adjusted.settings))
         self._story = Story(record, wall_clock)
         self._judged_s = float("-inf")
         self._now_s = self._ticked_s = clock()
@@ -139,8 +131,8 @@ class Control:
                 self._guardian_gone(item)
             case ModelChosen():
                 self._ear.choose(item.model)
-            case TrainingHeld():
-                self._hold_for_training(item.is_open)
+            case _ if isinstance(item, SetupInput):
+                self._adjust(item)
             case e.Say():
                 self._say(item)
             case _:
@@ -157,14 +149,18 @@ class Control:
         self._check_streams()
         if (late := self._ear.check(now_s)) is not None:
             self._step(late)
-        self._take_model()
+        self._take_choices()
         self._step(e.Ticked(now_s, self._blockers()))
         self._beat()
         self.picture = self._take_picture()
 
+    @property
+    def _site(self) -> SiteSettings:
+        return self.adjusted.settings.site
+
     def _own_stall(self) -> str:
         """A process that was kept from running has heard no sensor: that is not the sensor's."""
-        stalled_s, limit_s = self._now_s - self._ticked_s, self._settings.site.trip_level_s
+        stalled_s, limit_s = self._now_s - self._ticked_s, self._site.trip_level_s
         if stalled_s <= limit_s:
             return ""
         words = StopReason.APPLICATION_STALLED.value
@@ -189,21 +185,37 @@ class Control:
             for lost in self._arms.lost(self._now_s):
                 self._step(lost)
 
-    # Training.
+    # Setting up and training.
 
-    def _hold_for_training(self, is_open: bool) -> None:
-        """The permission goes back at once; a robot that moves is stopped as by Disarm."""
-        self._lock = TRAINING_OPEN if is_open else ""
-        if is_open:
+    def _adjust(self, item: SetupInput) -> None:
+        """What takes the permission takes it at once; what moves is stopped as by Disarm."""
+        if self.adjusted.note(item, self._now_s):
             self._step(e.DisarmPressed(self._now_s))
+        self._take_choices()
         self._judge_again()
 
-    def _take_model(self) -> None:
+    def _take_choices(self) -> None:
+        """What was chosen is taken while nothing may move."""
         if not self.state.is_at_rest or self.state.is_arming:
             return
+        if (taken := self.adjusted.take(self._now_s)) is not None:
+            self._refit(taken)
+            self._judge_again()
         if (model := self._ear.take_choice()) is not None:
             self._say(e.Say(f"model: {model.problem or model.words}"))
             self._judge_again()
+
+    def _refit(self, taken: Taken) -> None:
+        """Work with other settings; a guardian has its limits for good, so it is another one."""
+        settings = self.adjusted.settings
+        self._arms.use(settings.site, self.adjusted.postures, taken.sensors)
+        if self.state.posture is not ArmPosture.NEITHER:
+            self._step(e.LeftPosture(self._now_s, ArmPosture.NEITHER))
+        if taken.is_guardian_concerned:
+            self._field, self._rules = field_of(settings), _rules_of(settings)
+            self._robot = RobotMemory(settings.robot)
+            self._guardian.renew()
+            self._say(e.Say("other settings are in use"))
 
     def _judge_again(self) -> None:
         self._judged_s = float("-inf")
@@ -212,41 +224,26 @@ class Control:
     # The guardian.
 
     def _keep_guardian(self) -> None:
-        if self._guardian is not None or self._now_s - self._guardian_tried_s < RESTART_S:
-            return
-        self._guardian_tried_s = self._now_s
-        try:
-            self._guardian = self._start_guardian()
-        except GuardianLost as error:
-            self._guardian_not_started(str(error))
-            return
-        self._guardian_trouble, self._n_silent = "", 0
-        if self._owed_stop is not None:
-            self._guardian.send(self._owed_stop)
-            self._owed_stop = None
-
-    def _guardian_not_started(self, trouble: str) -> None:
-        self._robot.note(m.LinkReport(False, trouble))
-        if trouble != self._guardian_trouble:  # it is tried again and again, and told once
-            self._guardian_trouble = trouble
+        if trouble := self._guardian.keep(self._now_s):
             self._say(e.Say(trouble, is_alarm=True))
+        if self._guardian.trouble:
+            self._robot.note(m.LinkReport(False, self._guardian.trouble))
 
     def _check_guardian(self) -> None:
         """One that says nothing where it must is gone for us: frozen, or its line is stuck."""
         s = self.state
         is_awaited = not s.is_at_rest and not s.is_stop_unconfirmed
-        self._n_silent += 1
-        if self._guardian is not None and is_awaited and self._n_silent > SILENT_TICKS:
+        if self._guardian.is_silent() and is_awaited:
             text = "the guardian process is silent; a new one holds the robot first"
             self._guardian_gone(e.GuardianGone(self._now_s, text))
 
     def _guardian_gone(self, gone: e.GuardianGone) -> None:
-        self._guardian = None
+        self._guardian.forget()
         self._robot.note(m.LinkReport(False, gone.text))
         self._step(gone)
 
     def _guardian_said(self, message: m.FromGuardian) -> None:
-        self._n_silent = 0
+        self._guardian.heard()
         self._robot.note(message)
         if isinstance(message, m.StatusReport | m.PoseReport):
             self._record(Record(Topic.ROBOT, message.t_s, robot_fields(message)))
@@ -268,7 +265,7 @@ class Control:
         return event
 
     def _beat(self) -> None:
-        if self._guardian is None:
+        if not self._guardian.is_there:
             return
         posture = self._arms.posture
         self._guardian.send(
@@ -283,10 +280,7 @@ class Control:
 
     def _send(self, message: m.ToGuardian) -> None:
         self._record(Record(Topic.COMMAND, self._now_s, fields_of(message)))
-        if self._guardian is not None:
-            self._guardian.send(message)
-        elif isinstance(message, m.Stop):
-            self._owed_stop = message
+        self._guardian.send(message)
 
     # The machine.
 
@@ -321,7 +315,7 @@ class Control:
             case e.EndCollecting():
                 self._ear.cancel()
             case e.SendProposal():
-                direction = direction_of(effect.label)
+                direction = self._direction_of(effect.label)
                 self._send(m.Propose(effect.activation_id, direction, effect.t_s))
             case e.SendStop():
                 self._send(m.Stop(effect.reason, effect.text, self._now_s))
@@ -332,6 +326,9 @@ class Control:
             case e.Say():
                 self._say(effect)
 
+    def _direction_of(self, label: str) -> Direction:
+        return direction_of(label, self.adjusted.settings.robot.yaw_deg)
+
     def _say(self, said: e.Say) -> None:
         self._story.say(said, self._now_s)
 
@@ -341,16 +338,19 @@ class Control:
         if self._now_s - self._judged_s < JUDGE_S:
             return self.state.blockers
         self._judged_s = self._now_s
-        since_s = self.state.stop_since_s
+        since_s, fitness = self.state.stop_since_s, self.adjusted.fitness
         return find_blockers(
             Facts(
                 left=self._arms.health(Side.LEFT, self._now_s),
                 right=self._arms.health(Side.RIGHT, self._now_s),
                 stop_seen_s=None if since_s is None else self._now_s - since_s,
-                stop_wanted_s=self._settings.site.stop_seen_s,
+                stop_wanted_s=self._site.stop_seen_s,
                 model_problem=self._ear.model.problem,
                 model_remedy=self._ear.model.remedy,
-                lock=self._lock,
+                lock=self.adjusted.hold,
+                left_fit=fitness.of(Side.LEFT),
+                right_fit=fitness.of(Side.RIGHT),
+                postures_fit=fitness.postures,
                 is_link_open=self._robot.is_open,
                 link_text=self._robot.text,
                 link_remedy=self._robot.remedy,
@@ -360,12 +360,12 @@ class Control:
                 position=self._robot.position,
                 pose_age_s=self._now_s - self._robot.pose_s,
                 field=self._field,
-                tool=self._settings.robot.tool,
+                tool=self.adjusted.settings.robot.tool,
             )
         )
 
     def _take_picture(self) -> Snapshot:
-        s, settings = self.state, self._settings
+        s, settings = self.state, self.adjusted.settings
         model, recognition = self._ear.model, self._ear.recognition
         label = recognition.label if recognition is not None else None
         return Snapshot(
@@ -380,7 +380,7 @@ class Control:
             posture=s.posture,
             trip_level_s=settings.site.trip_level_s,
             recognition=recognition,
-            direction=direction_of(label) if label is not None else None,
+            direction=self._direction_of(label) if label is not None else None,
             robot=self._robot.view(self._now_s),
             events=self._story.lines,
             is_simulation=settings.is_simulation,
@@ -388,6 +388,11 @@ class Control:
             person=model.person or settings.person.name,
             model=model.words,
         )
+
+
+def _rules_of(settings: Settings) -> Rules:
+    site = settings.site
+    return Rules(site.drive_mode, site.stop_on_right_lost, bool(settings.robot.host))
 
 
 def _shown(s: MachineState) -> tuple[CellState, str, bool]:

@@ -5,22 +5,34 @@ from typing import Protocol
 
 from gestureapp.cell.events import STOP_WORDS
 from gestureapp.cell.snapshot import Snapshot
-from gestureapp.config import Settings
+from gestureapp.config import SensorSettings, Settings
+from gestureapp.sensing.calibration import Calibration
+from gestureapp.sensing.posture import LeftPostures
 from gestureapp.sensing.store import SampleStore
+from gestureapp.sensing.values import Side
+
+TRAINING_OPEN, SETUP_OPEN = "training is open", "setup is open"
+"""Why nothing can be armed while such a page is open; a stop test can begin beside setup."""
 
 
 class CellControls(Protocol):
     """The running cell, seen from the window's thread. No call blocks.
 
     Attributes:
-        settings: What the cell was started with.
         left: The left arm's newest samples, for plots.
         right: The right arm's.
     """
 
-    settings: Settings
     left: SampleStore
     right: SampleStore
+
+    @property
+    def settings(self) -> Settings:
+        """In use now."""
+
+    @property
+    def postures(self) -> LeftPostures:
+        """Of the left arm, in use now."""
 
     def snapshot(self) -> Snapshot:
         """The newest frozen picture of the cell; polled at the display rate."""
@@ -53,11 +65,60 @@ class CellControls(Protocol):
             person: Whose arms it is for; empty when the model says so itself.
         """
 
-    def hold_for_training(self, is_open: bool) -> None:
-        """Training is open, or closed again. While it is open nothing can be armed.
+    def hold_arming(self, why: str) -> None:
+        """Something is open beside which nothing can be armed; an empty reason lets arm again.
 
         What is armed is disarmed; what moves is stopped as by ``disarm``.
+
+        Args:
+            why: ``TRAINING_OPEN``, ``SETUP_OPEN``, or empty.
         """
+
+    def use_sensor(self, side: Side, settings: SensorSettings) -> None:
+        """Read this arm's sensor from elsewhere, as soon as nothing may move.
+
+        Raises:
+            ConfigError: there is no such protocol.
+        """
+
+    def use_calibration(self, side: Side, calibration: Calibration) -> None:
+        """Take this sensor's own errors out of the samples from now on."""
+
+    def judge_sensor(self, side: Side, problem: str, remedy: str = "") -> None:
+        """Say why this sensor must not be armed with; an empty problem means that it may be.
+
+        A sensor that nobody has judged is not calibrated. One that is found unfit while the cell is
+        armed disarms it.
+        """
+
+    def use_postures(self, postures: LeftPostures, problem: str = "", remedy: str = "") -> None:
+        """Take these postures of the left arm, as soon as nothing may move.
+
+        Args:
+            postures: Of the person who wears the sensors.
+            problem: Why they must not be armed with; empty when they may be.
+            remedy: What to do about that.
+        """
+
+    def use_settings(self, settings: Settings) -> None:
+        """Take the site's, robot's and joints' settings, as soon as nothing may move.
+
+        The guardian is ended and another one started with them; until it has connected to the
+        controller nothing can be armed. Sensors, person and simulation stay as they are.
+
+        Raises:
+            ConfigError: they contradict each other or a limit; then nothing is changed.
+        """
+
+    def begin_stop_test(self, label: str) -> None:
+        """Arm, then move at most 20 mm slowly this way, to be stopped with STOP.
+
+        Args:
+            label: A movement, as the operator sees it: ``X+``.
+        """
+
+    def release_stop_test(self) -> None:
+        """The button was let go: a stop test under way is stopped, not measured."""
 
     def shutdown(self) -> None:
         """Stop and disarm the robot, close the record, end all threads and children. Idempotent."""

@@ -6,35 +6,40 @@ from dataclasses import replace
 from pathlib import Path
 
 from gestureapp.cell import events as e
+from gestureapp.cell.adjustments import with_limits_of
 from gestureapp.cell.control import Control
 from gestureapp.cell.ear import open_model
+from gestureapp.cell.fitness import Judgement
 from gestureapp.cell.guardian_link import GuardianLink
 from gestureapp.cell.guardian_process import SpareGuardian
 from gestureapp.cell.inputs import (
+    ArmingHeld,
+    CalibrationChosen,
     GuardianPort,
     GuardianSaid,
     ModelChosen,
+    PosturesChosen,
     SampleCame,
+    SensorChosen,
+    SensorJudged,
     SensorTold,
     ServoAsked,
-    TrainingHeld,
+    SettingsChosen,
 )
+from gestureapp.cell.limits import checked_limits, limits_of
 from gestureapp.cell.records import Record, Recorder, Topic
 from gestureapp.cell.snapshot import CellState, RecordingView, Snapshot
 from gestureapp.clock import Clock, monotonic
-from gestureapp.config import DriveMode, JointSettings, SensorSettings, Settings
-from gestureapp.errors import ConfigError, GuardianLost, WorkerError
+from gestureapp.config import SensorSettings, Settings
+from gestureapp.errors import GuardianLost, WorkerError
 from gestureapp.robot import messages as m
-from gestureapp.robot.arm import ArmLimits
-from gestureapp.robot.gate import Limits
-from gestureapp.robot.obstacles import Column, KeepOut
 from gestureapp.robot.values import StopReason
-from gestureapp.robot.workspace import FieldOfOperation
-from gestureapp.sensing.posture import PostureDetector
+from gestureapp.sensing.calibration import Calibration
+from gestureapp.sensing.posture import LeftPostures
+from gestureapp.sensing.protocols import protocol
 from gestureapp.sensing.reader import SensorReader
 from gestureapp.sensing.store import SampleStore
 from gestureapp.sensing.values import Garbage, Sample, SensorEvent, Side
-from gestureapp.settings_check import why_not_simulated
 from gestureapp.worker import Worker
 
 log = logging.getLogger(__name__)
@@ -62,7 +67,6 @@ class Cell:
         ConfigError: the settings contradict each other or a limit that nobody may leave.
 
     Attributes:
-        settings: As given.
         left: The left arm's newest samples.
         right: The right arm's.
     """
@@ -76,8 +80,7 @@ class Cell:
         wall_clock: Clock,
         clock: Clock = monotonic,
     ) -> None:
-        self.settings = settings
-        self._limits = _checked_limits(settings)
+        checked_limits(settings)
         self.left, self.right = SampleStore(), SampleStore()
         self._record, self._recording = record, recording
         self._guardian_log, self._clock = guardian_log, clock
@@ -85,27 +88,37 @@ class Cell:
         self._link: GuardianLink | None = None
         self._spare = SpareGuardian()
         self._is_closing = False
+        self._readers = {
+            Side.LEFT: self._reader(Side.LEFT, settings.left, self.left, Topic.LEFT_ACCEL),
+            Side.RIGHT: self._reader(Side.RIGHT, settings.right, self.right, Topic.RIGHT_ACCEL),
+        }
         self._control = Control(
             settings=settings,
-            field=self._limits.field,
             model=replace(open_model(settings.person.model), person=""),
             start_guardian=self._start_guardian,
+            readers=self._readers,
             gui_seen_s=lambda: self._gui_s,
             record=record,
             clock=clock,
             wall_clock=wall_clock,
         )
         self._worker = Worker("control", self._control.run, self._control_died)
-        self._readers = (
-            self._reader(Side.LEFT, settings.left, self.left, Topic.LEFT_ACCEL),
-            self._reader(Side.RIGHT, settings.right, self.right, Topic.RIGHT_ACCEL),
-        )
+
+    @property
+    def settings(self) -> Settings:
+        """In use now."""
+        return self._control.adjusted.settings
+
+    @property
+    def postures(self) -> LeftPostures:
+        """Of the left arm, in use now."""
+        return self._control.adjusted.postures
 
     def start(self) -> None:
         """Start every thread; the guardian is started by the control thread."""
         self._gui_s = self._clock()
         self._worker.start()
-        for reader in self._readers:
+        for reader in self._readers.values():
             reader.start()
 
     def snapshot(self) -> Snapshot:
@@ -153,9 +166,37 @@ class Cell:
             path = own.model
         self._control.put(ModelChosen(open_model(path, problem, person)))
 
-    def hold_for_training(self, is_open: bool) -> None:
-        """Training is open, or closed again; while it is open nothing can be armed."""
-        self._control.put(TrainingHeld(is_open))
+    def hold_arming(self, why: str) -> None:
+        """Something is open beside which nothing can be armed; an empty reason lets arm again."""
+        self._control.put(ArmingHeld(why))
+
+    def use_sensor(self, side: Side, settings: SensorSettings) -> None:
+        """Read this arm's sensor from elsewhere, once nothing may move; else ConfigError."""
+        protocol(settings.protocol)
+        self._control.put(SensorChosen(side, settings))
+
+    def use_calibration(self, side: Side, calibration: Calibration) -> None:
+        """Take this sensor's own errors out of the samples from now on."""
+        self._control.put(CalibrationChosen(side, calibration))
+
+    def judge_sensor(self, side: Side, problem: str, remedy: str = "") -> None:
+        """Say why this sensor must not be armed with; an empty problem means that it may be."""
+        self._control.put(SensorJudged(side, Judgement(problem, remedy)))
+
+    def use_postures(self, postures: LeftPostures, problem: str = "", remedy: str = "") -> None:
+        """Take these postures of the left arm, once nothing may move."""
+        self._control.put(PosturesChosen(postures, Judgement(problem, remedy)))
+
+    def use_settings(self, settings: Settings) -> None:
+        """Take other settings of site, robot and joints, once nothing may move; or ConfigError."""
+        checked_limits(with_limits_of(self.settings, settings))
+        self._control.put(SettingsChosen(settings))
+
+    def begin_stop_test(self, label: str) -> None:
+        """Arm, then move at most 20 mm slowly this way, to be stopped with STOP."""
+
+    def release_stop_test(self) -> None:
+        """The button was let go: a stop test under way is stopped, not measured."""
 
     def tell(self, text: str) -> None:
         """One line for the cell's story, no alarm."""
@@ -169,7 +210,7 @@ class Cell:
         self._control.put(e.DisarmPressed(self._clock()))
         if self._worker.is_alive:
             self._control.at_rest.wait(CLOSING_LIMIT_S)
-        for reader in self._readers:
+        for reader in self._readers.values():
             reader.stop()
         self._worker.stop()
         if self._link is not None:
@@ -194,16 +235,16 @@ class Cell:
 
         return SensorReader(side, settings, on_sample, on_event, self._clock, self._reader_died)
 
-    def _start_guardian(self) -> GuardianPort:
-        old, robot = self._link, self.settings.robot
+    def _start_guardian(self, settings: Settings) -> GuardianPort:
+        old, robot = self._link, settings.robot
         if old is not None:
             old.close(wait_s=OLD_GUARDIAN_S, is_killed=True)
         link = GuardianLink(
             self._spare.take(),
             host=robot.host,
             port=robot.port,
-            limits=self._limits,
-            is_simulation=self.settings.is_simulation,
+            limits=limits_of(settings),
+            is_simulation=settings.is_simulation,
             log_file=self._guardian_log,
             on_message=self._guardian_said,
             on_lost=lambda text: self._control.put(e.GuardianGone(self._clock(), text)),
@@ -238,71 +279,6 @@ def _orphaned(picture: Snapshot, *, is_open: bool) -> Snapshot:
         can_arm=False,
         is_stop_unconfirmed=is_open,
     )
-
-
-def field_of(settings: Settings) -> FieldOfOperation:
-    """The field of operation that the settings describe."""
-    robot = settings.robot
-    column = Column(robot.column_radius_mm, robot.column_top_mm) if robot.column_radius_mm else None
-    return FieldOfOperation(
-        ext_radius_mm=robot.ext_radius_mm,
-        int_radius_mm=robot.int_radius_mm,
-        margin_mm=robot.margin_mm,
-        ranges_deg=(robot.rx_range_deg, robot.ry_range_deg, robot.rz_range_deg),
-        margin_deg=robot.margin_deg,
-        floor_mm=robot.floor_mm,
-        ceiling_mm=robot.ceiling_mm,
-        column=column,
-        keep_outs=tuple(KeepOut(box.name, box.low_mm, box.high_mm) for box in robot.keep_outs),
-        arm=_arm_limits_of(settings.joints, robot.tool_mm),
-    )
-
-
-def _arm_limits_of(joints: JointSettings, tool_mm: tuple[float, float, float]) -> ArmLimits:
-    return ArmLimits(
-        tool_mm=tool_mm,
-        ranges_deg=(
-            joints.s_range_deg,
-            joints.l_range_deg,
-            joints.u_range_deg,
-            joints.r_range_deg,
-            joints.b_range_deg,
-            joints.t_range_deg,
-        ),
-        joint_margin_deg=joints.margin_deg,
-        wrist_margin_deg=joints.wrist_margin_deg,
-        elbow_margin_deg=joints.elbow_margin_deg,
-        shoulder_margin_mm=joints.shoulder_margin_mm,
-    )
-
-
-def limits_of(settings: Settings) -> Limits:
-    """What the guardian is given at its start."""
-    robot, site = settings.robot, settings.site
-    return Limits(
-        field=field_of(settings),
-        speed_mm_s=robot.speed_mm_s,
-        speed_deg_s=robot.speed_deg_s,
-        frame=robot.frame,
-        tool=robot.tool,
-        is_hold_to_run=site.drive_mode is DriveMode.HOLD_TO_RUN,
-        trip_level_s=site.trip_level_s,
-        control_limit_s=site.control_limit_s,
-        gui_limit_s=site.gui_limit_s,
-        supervision_input=robot.supervision_input,
-        supervision_hz=robot.supervision_hz,
-    )
-
-
-def _checked_limits(settings: Settings) -> Limits:
-    site = settings.site
-    if wrong := why_not_simulated(settings):
-        raise ConfigError("robot.host", settings.robot.host, wrong)
-    try:
-        PostureDetector(site.posture_enter_deg, site.posture_leave_deg, site.posture_debounce)
-        return limits_of(settings)
-    except ValueError as error:
-        raise ConfigError("robot and site settings", "as given", str(error)) from error
 
 
 def _sample_fields(sample: Sample) -> dict[str, int | float | None]:

@@ -5,8 +5,22 @@ from typing import Protocol
 
 from gestureapp.cell import events as e
 from gestureapp.cell.ear import ModelInUse
+from gestureapp.cell.fitness import Judgement
+from gestureapp.config import SensorSettings, Settings
 from gestureapp.robot import messages as m
+from gestureapp.sensing.calibration import Calibration
+from gestureapp.sensing.posture import LeftPostures
 from gestureapp.sensing.values import Sample, SensorEvent, Side
+
+
+class ReaderPort(Protocol):
+    """What the control thread needs of a sensor's reader. No call waits."""
+
+    def use(self, settings: SensorSettings) -> None:
+        """Read from this port, with this protocol, from now on."""
+
+    def set_calibration(self, calibration: Calibration) -> None:
+        """Take this sensor's own errors out of every sample from now on."""
 
 
 class GuardianPort(Protocol):
@@ -55,13 +69,55 @@ class ModelChosen:
 
 
 @dataclass(frozen=True, slots=True)
-class TrainingHeld:
-    """The training is open, or closed again; while it is open nothing can be armed."""
+class ArmingHeld:
+    """Something is open beside which nothing can be armed; an empty reason lets arm again."""
 
-    is_open: bool
+    why: str
 
 
+@dataclass(frozen=True, slots=True)
+class SensorChosen:
+    """A sensor is to be read from elsewhere, as soon as nothing may move."""
+
+    side: Side
+    settings: SensorSettings
+
+
+@dataclass(frozen=True, slots=True)
+class CalibrationChosen:
+    """A sensor's own errors, for the samples from now on."""
+
+    side: Side
+    calibration: Calibration
+
+
+@dataclass(frozen=True, slots=True)
+class SensorJudged:
+    """Whether a sensor may be armed with."""
+
+    side: Side
+    judgement: Judgement
+
+
+@dataclass(frozen=True, slots=True)
+class PosturesChosen:
+    """Other postures of the left arm, as soon as nothing may move."""
+
+    postures: LeftPostures
+    judgement: Judgement
+
+
+@dataclass(frozen=True, slots=True)
+class SettingsChosen:
+    """Other settings of site, robot and joints, as soon as nothing may move."""
+
+    settings: Settings
+
+
+SetupInput = (
+    ArmingHeld | SensorChosen | CalibrationChosen | SensorJudged | PosturesChosen | SettingsChosen
+)
 Input = (
-    SampleCame | SensorTold | GuardianSaid | ServoAsked | ModelChosen | TrainingHeld
+    SampleCame | SensorTold | GuardianSaid | ServoAsked | ModelChosen | SetupInput
     | e.Say | e.Event
 )  # fmt: skip

@@ -7,11 +7,16 @@ import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 
+from gestureapp.cell.controls import SETUP_OPEN
+from gestureapp.cell.fitness import FIT, NOT_CALIBRATED, Judgement
 from gestureapp.cell.snapshot import Blocker
 from gestureapp.robot.gate import STATUS_MAX_AGE_S, find_foreign_tool, robot_blocker
 from gestureapp.robot.values import Position, Refusal, RobotStatus
 from gestureapp.robot.workspace import FieldOfOperation, find_outside
 from gestureapp.sensing.values import StreamHealth
+
+MODEL_BLOCKER, SETUP_BLOCKER = "model", "setup"
+"""They do not stand against a stop test: it needs no gesture, and begins in Setup."""
 
 _REMEDIES = {
     "no_status": "wait, or check the cable to the controller",
@@ -48,6 +53,9 @@ class Facts:
         tool: Number of the tool that the settings have.
         model_remedy: What to do about the model.
         lock: Why arming is locked out at all, or empty.
+        left_fit: What setting up says of the left sensor.
+        right_fit: The same of the right one.
+        postures_fit: The same of the left arm's postures.
         hindrances: What the guardian knows to stand against it and no status shows.
         link_remedy: What to do about the line, where the guardian knows; else empty.
     """
@@ -67,6 +75,9 @@ class Facts:
     tool: int
     model_remedy: str = "train a model, or choose another file"
     lock: str = ""
+    left_fit: Judgement = NOT_CALIBRATED
+    right_fit: Judgement = NOT_CALIBRATED
+    postures_fit: Judgement = FIT
     link_remedy: str = ""
     hindrances: tuple[Refusal, ...] = ()
 
@@ -77,13 +88,20 @@ def find_blockers(facts: Facts) -> tuple[Blocker, ...]:
 
 
 def _sensor_blockers(facts: Facts) -> Iterator[Blocker]:
-    for health in (facts.left, facts.right):
+    for health, fit in ((facts.left, facts.left_fit), (facts.right, facts.right_fit)):
+        if fit.problem:
+            side = health.side.value
+            text = f"{side} sensor: {fit.problem}"
+            yield Blocker(f"{side}_unfit", text, fit.remedy or "Setup, step Sensors")
         if not health.is_ok:
             side = health.side.value
             cause, colon, remedy = health.reason.rpartition(": ")
             if not colon:
                 cause, remedy = health.reason, "check the sensor and its port"
             yield Blocker(f"{side}_sensor", f"{side} sensor: {cause}", remedy)
+    if facts.postures_fit.problem:
+        remedy = facts.postures_fit.remedy or "Setup, step Calibrate"
+        yield Blocker("postures", facts.postures_fit.problem, remedy)
     if facts.left.is_ok and (facts.stop_seen_s is None or facts.stop_seen_s < facts.stop_wanted_s):
         text = "left arm is not in the stop posture"
         if facts.stop_seen_s is not None:
@@ -95,9 +113,10 @@ def _sensor_blockers(facts: Facts) -> Iterator[Blocker]:
 
 def _own_blockers(facts: Facts) -> Iterator[Blocker]:
     if facts.lock:
-        yield Blocker("lock", facts.lock, "go back to Operate")
+        name = SETUP_BLOCKER if facts.lock == SETUP_OPEN else "lock"
+        yield Blocker(name, facts.lock, "go back to Operate")
     if facts.model_problem:
-        yield Blocker("model", facts.model_problem, facts.model_remedy)
+        yield Blocker(MODEL_BLOCKER, facts.model_problem, facts.model_remedy)
 
 
 def _robot_blockers(facts: Facts) -> Iterator[Blocker]:

@@ -28,6 +28,8 @@ class Topic(Enum):
     """type and fields of what was asked of, let through or refused by the guardian."""
     ROBOT = "/robot/state"
     """data_1, data_2, x_mm … rz_deg as the robot answered; any may be null."""
+    SETTINGS = "/cell/settings"
+    """changes {dotted name: value}: settings, calibrations and postures that hold from now on."""
     EVENT = "/events"
     """text, is_alarm: the cell's story for a person."""
 

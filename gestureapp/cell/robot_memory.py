@@ -5,11 +5,14 @@ from collections.abc import Iterator
 from gestureapp.cell import events as e
 from gestureapp.cell.records import Json
 from gestureapp.cell.snapshot import RobotView
-from gestureapp.config import RobotSettings
+from gestureapp.config import YAWS_DEG, RobotSettings
 from gestureapp.gestures import Kind, gesture
 from gestureapp.robot import messages as m
 from gestureapp.robot.values import Direction, Pose, PoseIncrement, Position, Refusal, RobotStatus
 
+_X, _Y, _Z = range(3)
+_QUARTERS = {0: (1, 0), 90: (0, 1), 180: (-1, 0), -90: (0, -1)}
+"""Cosine and sine of each yaw."""
 _NO_ADDRESS = "no robot address is set"
 
 
@@ -91,6 +94,9 @@ class RobotMemory:
             speed=self._speed,
             supervision=self._supervision,
             is_supervision_working=not any(h.reason == "supervision" for h in self.hindrances),
+            alarms=self._alarms,
+            position=self.position,
+            banner=self.text if self.is_open else "",
         )
 
 
@@ -117,14 +123,32 @@ def events_of(message: m.FromGuardian, t_s: float) -> Iterator[e.Event]:
             yield e.StopOpen(t_s, message.text)
 
 
-def direction_of(label: str) -> Direction:
-    """What a gesture asks of the robot.
+def direction_of(label: str, yaw_deg: int = 0) -> Direction:
+    """What a gesture asks of the robot, in its own frame.
+
+    The operator's axes are turned about the common Z by ``yaw_deg``: at 90 the operator faces the
+    robot's +Y, so that the operator's X+ is the robot's Y+ and Y+, to the left, its X-. Rotations
+    go the same way, as their axes do; Z stays.
+
+    Args:
+        label: Of the gesture.
+        yaw_deg: Which way the operator faces: 0, 90, 180 or -90.
 
     Raises:
         KeyError: no gesture has this label.
+        ValueError: the yaw is no quarter turn.
     """
     found = gesture(label)
-    return Direction(found.axis, found.sign, found.kind is Kind.POSTURE)
+    is_rotation = found.kind is Kind.POSTURE
+    if yaw_deg not in YAWS_DEG:
+        raise ValueError(f"robot.yaw_deg = {yaw_deg}: must be one of {YAWS_DEG}")
+    if found.axis == _Z:
+        return Direction(found.axis, found.sign, is_rotation)
+    cosine, sine = _QUARTERS[yaw_deg]
+    x, y = (found.sign, 0) if found.axis == _X else (0, found.sign)
+    turned_x, turned_y = cosine * x - sine * y, sine * x + cosine * y
+    axis, sign = (_X, turned_x) if turned_x else (_Y, turned_y)
+    return Direction(axis, sign, is_rotation)
 
 
 def robot_fields(message: m.StatusReport | m.PoseReport) -> dict[str, Json]:

@@ -1,10 +1,11 @@
 """Everything the window shows, frozen, at one moment. The whole seam between engine and window."""
 
+import math
 from dataclasses import dataclass
 from enum import Enum
 
 from gestureapp.recognition.values import Recognition
-from gestureapp.robot.values import Direction, Pose, PoseIncrement, RobotStatus
+from gestureapp.robot.values import Direction, Pose, PoseIncrement, Position, RobotStatus
 from gestureapp.sensing.values import ArmPosture, StreamHealth
 
 
@@ -77,6 +78,9 @@ class RobotView:
         speed: Its speed with unit, ``100.0 mm/s``.
         supervision: Controller-side supervision in words: ``off``, ``on, #22010, 5 Hz``.
         is_supervision_working: The controller takes the toggles; also true where it is off.
+        alarms: Codes of RALARM while there are any.
+        position: Last RPOSC with the arm's posture and the tool's number, or None.
+        banner: What the controller said as the line was opened; empty while it is not.
     """
 
     is_connected: bool
@@ -91,6 +95,35 @@ class RobotView:
     speed: str = ""
     supervision: str = "off"
     is_supervision_working: bool = True
+    alarms: tuple[int, ...] = ()
+    position: Position | None = None
+    banner: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class StopTestResult:
+    """Where a stop test is, and what it has measured.
+
+    Attributes:
+        phase: ``arming``, ``moving``, ``stopping`` or ``done``.
+        label: Which way, as the operator sees it: ``X+``.
+        took_s: From the press of STOP to the standstill read back; NaN before and without one.
+        ran_on_mm: Distance from the press to that standstill; NaN before and without one.
+        text: What to do now, or what came of it.
+        wall_s: When it was done, seconds since the epoch; 0 before.
+    """
+
+    phase: str
+    label: str = ""
+    took_s: float = float("nan")
+    ran_on_mm: float = float("nan")
+    text: str = ""
+    wall_s: float = 0.0
+
+    @property
+    def is_measured(self) -> bool:
+        """STOP was pressed while it moved, and the standstill was read back."""
+        return not math.isnan(self.took_s)
 
 
 @dataclass(frozen=True, slots=True)
@@ -116,6 +149,7 @@ class Snapshot:
         recording: Whether the session is recorded, and where.
         person: Whose arms.
         model: Which model, in words.
+        stop_test: The last or present one, or None.
     """
 
     t_s: float
@@ -136,3 +170,4 @@ class Snapshot:
     recording: RecordingView
     person: str
     model: str
+    stop_test: StopTestResult | None = None

@@ -9,11 +9,11 @@ from typing import Final, Protocol
 
 import numpy as np
 
-from gestureapp.config import Settings
+from gestureapp.config import Settings, SiteSettings
 from gestureapp.guided.motion import tilt_of
 from gestureapp.recognition.values import Recognition
 from gestureapp.recording.take_values import AFTER_S, BEFORE_S, F64
-from gestureapp.sensing.posture import PostureDetector
+from gestureapp.sensing.posture import LeftPostures, PostureDetector
 from gestureapp.sensing.store import SampleStore
 from gestureapp.sensing.values import ArmPosture, LinkState, Side, StreamHealth
 
@@ -54,7 +54,11 @@ class SensedCell(Protocol):
 
     @property
     def settings(self) -> Settings:
-        """What the cell was started with."""
+        """In use now."""
+
+    @property
+    def postures(self) -> LeftPostures:
+        """Of the left arm, in use now."""
 
     @property
     def left(self) -> SampleStore:
@@ -94,10 +98,8 @@ class Arms:
 
     def __init__(self, cell: SensedCell) -> None:
         self._cell = cell
-        site = cell.settings.site
-        self._detector = PostureDetector(
-            site.posture_enter_deg, site.posture_leave_deg, site.posture_debounce
-        )
+        self._judged_by = (cell.settings.site, cell.postures)
+        self._detector = _detector(*self._judged_by)
         self._counts = {Side.LEFT: cell.left.count, Side.RIGHT: cell.right.count}
         self._presence = {side: _Presence() for side in Side}
         self._rows = cell.right.tail(BEFORE_S)
@@ -139,6 +141,9 @@ class Arms:
 
     def _read_left(self, now_s: float) -> list[tuple[float, ArmPosture]]:
         changes: list[tuple[float, ArmPosture]] = []
+        if (judged_by := (self._cell.settings.site, self._cell.postures)) != self._judged_by:
+            self._judged_by, self._detector = judged_by, _detector(*judged_by)
+            changes.append((now_s, ArmPosture.NEITHER))
         for t_s, x, y, z in self._read(Side.LEFT, self._cell.left).tolist():
             before = self._detector.posture
             posture = self._detector.feed((x, y, z))
@@ -172,6 +177,11 @@ class _Presence:
         if now_s - self._since_s >= limit_s:
             self.is_lost = not is_there
             self._since_s = None
+
+
+def _detector(site: SiteSettings, postures: LeftPostures) -> PostureDetector:
+    angles_deg = (site.posture_enter_deg, site.posture_leave_deg)
+    return PostureDetector(*angles_deg, site.posture_debounce, postures)
 
 
 def _row(values: list[float]) -> Row:

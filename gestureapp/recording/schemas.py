@@ -128,6 +128,12 @@ SCHEMAS: Final[Mapping[Topic, Schema]] = {
             *("type", "tool"),
         ),
     ),
+    Topic.SETTINGS: _schema(
+        "What setting up has changed; it holds from now on",
+        {
+            "changes": _field("object", "new values by dotted name: robot.speed_mm_s"),
+        },
+    ),
     Topic.EVENT: _schema(
         "The cell's story for a person",
         {

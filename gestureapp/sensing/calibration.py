@@ -2,7 +2,6 @@
 
 from dataclasses import dataclass
 
-from gestureapp.config import SensorSettings
 from gestureapp.sensing.lines import FIRST_BYTES
 from gestureapp.sensing.protocols import Protocol
 from gestureapp.sensing.values import Frame, Impossible
@@ -39,13 +38,15 @@ NOMINAL = Calibration()
 _AXES = "XYZ"
 
 
-def calibrate(nominal_g: Vector, settings: SensorSettings) -> Vector:
-    """Take offset, then gain, out of a reading: (nominal - offset) * gain, axis by axis, in g."""
-    (x, y, z), (ox, oy, oz), (kx, ky, kz) = nominal_g, settings.offset, settings.gain
-    return ((x - ox) * kx, (y - oy) * ky, (z - oz) * kz)
+def calibrate(nominal_g: Vector, calibration: Calibration) -> Vector:
+    """Take a sensor's own errors out of a reading: matrix times (nominal - offset), in g."""
+    (x, y, z), (ox, oy, oz) = nominal_g, calibration.offset_g
+    x, y, z = x - ox, y - oy, z - oz
+    (xx, xy, xz), (yx, yy, yz), (zx, zy, zz) = calibration.matrix
+    return (xx * x + xy * y + xz * z, yx * x + yy * y + yz * z, zx * x + zy * y + zz * z)
 
 
-def accel_of(frame: Frame, protocol: Protocol, settings: SensorSettings) -> Vector | Impossible:
+def accel_of(frame: Frame, protocol: Protocol, calibration: Calibration) -> Vector | Impossible:
     """The calibrated acceleration in a frame, in g; or why no sensor can have measured it.
 
     The limit is the sensor's, so it is held against the nominal value, before the calibration.
@@ -56,4 +57,4 @@ def accel_of(frame: Frame, protocol: Protocol, settings: SensorSettings) -> Vect
             shown = ",".join(f"{raw:g}" for raw in frame.raw).encode()[:FIRST_BYTES]
             reason = f"{value_g:.1f} g on {axis}, the sensor can give {protocol.limit_g:g} g"
             return Impossible(0, shown, reason)
-    return calibrate(nominal_g, settings)
+    return calibrate(nominal_g, calibration)

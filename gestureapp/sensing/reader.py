@@ -3,13 +3,14 @@
 import logging
 import threading
 from collections.abc import Callable
+from dataclasses import dataclass
 
 from gestureapp.clock import Clock, monotonic
 from gestureapp.config import SensorSettings
 from gestureapp.errors import SensorDisconnected, SensorError, WorkerError
-from gestureapp.sensing.calibration import accel_of
+from gestureapp.sensing.calibration import NOMINAL, Calibration, accel_of
 from gestureapp.sensing.ports import Port, open_port
-from gestureapp.sensing.protocols import protocol
+from gestureapp.sensing.protocols import Protocol, protocol
 from gestureapp.sensing.values import (
     Battery,
     Connected,
@@ -50,7 +51,7 @@ class SensorReader:
 
     Args:
         side: Whose sensor.
-        settings: Port, protocol and calibration.
+        settings: Port and protocol.
         on_sample: Gets every calibrated sample.
         on_event: Gets garbage, gaps, connections and losses. A loss or a failure to open is told
             again only when its reason changes or a connection came between.
@@ -73,14 +74,16 @@ class SensorReader:
         opener: Callable[[str, str], Port] = open_port,
     ) -> None:
         self._side = side
-        self._settings = settings
-        self._protocol = protocol(settings.protocol)
+        self._source = _Source(settings.port, protocol(settings.protocol))
+        self._calibration = NOMINAL
         self._on_sample = on_sample
         self._on_event = on_event
         self._clock = clock
         self._opener = opener
         self._seq = 0
         self._told: str | None = None
+        self._woken = threading.Event()
+        self._is_ending = False
         self._bad_lines = _BadLineLog(side)
         self._worker = Worker(f"{side.value} reader", self._run, on_error)
 
@@ -93,7 +96,24 @@ class SensorReader:
 
         Takes at most one read's time, or one attempt to connect.
         """
+        self._is_ending = True
+        self._woken.set()
         return self._worker.stop()
+
+    def use(self, settings: SensorSettings) -> None:
+        """Read from this port, with this protocol, from now on; any thread, does not wait.
+
+        A port that is open is closed first, at the latest after one read's time.
+
+        Raises:
+            ConfigError: there is no protocol of that name; then all stays as it was.
+        """
+        self._source = _Source(settings.port, protocol(settings.protocol))
+        self._woken.set()
+
+    def set_calibration(self, calibration: Calibration) -> None:
+        """Take this sensor's own errors out of every sample from now on; any thread."""
+        self._calibration = calibration
 
     @property
     def is_alive(self) -> bool:
@@ -103,57 +123,64 @@ class SensorReader:
     def _run(self, stopping: threading.Event) -> None:
         retry_s = RETRY_MIN_S
         while not stopping.is_set():
-            has_read = False
+            has_read, source = False, self._source
             try:
-                has_read = self._connection(stopping)
+                has_read = self._connection(stopping, source)
             except SensorError as error:
                 self._tell_lost(error.reason)
-            retry_s = RETRY_MIN_S if has_read else retry_s
-            stopping.wait(retry_s)
+            if self._is_ending:
+                return
+            retry_s = RETRY_MIN_S if has_read or source is not self._source else retry_s
+            if source is self._source:
+                self._woken.wait(retry_s)
+            self._woken.clear()
             retry_s = min(2 * retry_s, RETRY_MAX_S)
 
-    def _connection(self, stopping: threading.Event) -> bool:
+    def _connection(self, stopping: threading.Event, source: "_Source") -> bool:
         """Live through one connection; whether any data came.
 
         Raises:
             SensorError: the port could not be opened.
         """
-        port = self._opener(self._side.value, self._settings.port)
+        port = self._opener(self._side.value, source.port)
         try:
-            log.info("%s sensor: connected to %s", self._side.value, self._settings.port)
+            log.info("%s sensor: connected to %s", self._side.value, source.port)
             self._told = None
-            self._on_event(Connected(self._settings.port))
-            return self._read_until_lost(port, stopping)
+            self._on_event(Connected(source.port))
+            return self._read_until_lost(port, stopping, source)
         finally:
             port.close()
 
-    def _read_until_lost(self, port: Port, stopping: threading.Event) -> bool:
-        decoder = self._protocol.new_decoder()
+    def _read_until_lost(self, port: Port, stopping: threading.Event, source: "_Source") -> bool:
+        decoder = source.protocol.new_decoder()
         has_read = False
         while not stopping.is_set():
+            if source is not self._source:
+                self._tell_lost("another port or protocol was chosen: wait a moment")
+                break
             try:
                 data = port.read()
             except SensorDisconnected as error:
-                self._hand_on(decoder.end(), self._clock())
+                self._hand_on(decoder.end(), self._clock(), source)
                 self._tell_lost(error.reason)
                 break
             if data:
                 t_s = self._clock()
                 has_read = True
-                self._hand_on(decoder.feed(data), t_s)
+                self._hand_on(decoder.feed(data), t_s, source)
         return has_read
 
-    def _hand_on(self, events: list[DecoderEvent], t_s: float) -> None:
+    def _hand_on(self, events: list[DecoderEvent], t_s: float, source: "_Source") -> None:
         for event in events:
             if isinstance(event, Frame):
-                self._hand_on_frame(event, t_s)
+                self._hand_on_frame(event, t_s, source)
             elif isinstance(event, CounterGap | CounterJump | Identity | Battery):
                 self._on_event(event)
             else:
                 self._hand_on_garbage(event, t_s)
 
-    def _hand_on_frame(self, frame: Frame, t_s: float) -> None:
-        accel_g = accel_of(frame, self._protocol, self._settings)
+    def _hand_on_frame(self, frame: Frame, t_s: float, source: "_Source") -> None:
+        accel_g = accel_of(frame, source.protocol, self._calibration)
         if isinstance(accel_g, Impossible):
             self._hand_on_garbage(accel_g, t_s)
             return
@@ -170,6 +197,14 @@ class SensorReader:
         self._told = reason
         log.warning("%s sensor: %s", self._side.value, reason)
         self._on_event(Disconnected(reason))
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Source:
+    """Where a sensor is read from; another one is another, even if it says the same."""
+
+    port: str
+    protocol: Protocol
 
 
 class _BadLineLog:

@@ -85,6 +85,12 @@ class StreamTracker:
         self._n_bad = 0
         self._n_lost = 0
 
+    def set_limits(self, trip_level_s: float, rate_min_hz: float, rate_max_hz: float) -> None:
+        """Judge by these from now on; what was measured stays."""
+        self._trip_level_s = trip_level_s
+        self._rate_min_hz = rate_min_hz
+        self._rate_max_hz = rate_max_hz
+
     def event(self, t_s: float, event: SensorEvent) -> None:
         """Take whatever a reader tells besides samples, received at ``t_s``."""
         match event:

@@ -85,6 +85,8 @@ class Bench:
         self.cell = Cell(self.settings, record, lambda: self.recorder.status, None, time.time)
         self._opened.callback(self.cell.shutdown)
         self.cell.start()
+        for side in Side:
+            self.cell.judge_sensor(side, "")
 
     def __enter__(self) -> Self:
         return self

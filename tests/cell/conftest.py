@@ -10,15 +10,23 @@ import pytest
 from gestureapp.cell import events as e
 from gestureapp.cell.control import TICK_S, Control
 from gestureapp.cell.ear import open_model
-from gestureapp.cell.engine import field_of
-from gestureapp.cell.inputs import GuardianPort, GuardianSaid, SampleCame, SensorTold
+from gestureapp.cell.fitness import FIT
+from gestureapp.cell.inputs import (
+    GuardianPort,
+    GuardianSaid,
+    Input,
+    SampleCame,
+    SensorJudged,
+    SensorTold,
+)
 from gestureapp.cell.records import Record, Topic
 from gestureapp.cell.snapshot import CellState
 from gestureapp.clock import monotonic
-from gestureapp.config import Settings
+from gestureapp.config import SensorSettings, Settings
 from gestureapp.errors import GuardianLost
 from gestureapp.robot import messages as m
 from gestureapp.robot.values import Pose, PoseIncrement, Position, Posture, StopReason
+from gestureapp.sensing.calibration import Calibration
 from gestureapp.sensing.values import ArmPosture, Connected, Sample, Side
 from gestureapp.simulation.arm import LeftArm, RightArm, start_seen_after_s
 from gestureapp.simulation.demo import MODEL
@@ -138,6 +146,20 @@ class ScriptedGuardian:
             self._said.append(m.Disarmed())
 
 
+@dataclass
+class ReaderNotes:
+    """Implements ``ReaderPort`` by noting what was asked."""
+
+    used: list[SensorSettings] = field(default_factory=list)
+    calibrations: list[Calibration] = field(default_factory=list)
+
+    def use(self, settings: SensorSettings) -> None:
+        self.used.append(settings)
+
+    def set_calibration(self, calibration: Calibration) -> None:
+        self.calibrations.append(calibration)
+
+
 class Desk:
     """Control with everything around it in the test's hand. The time moves only in ``run``.
 
@@ -156,6 +178,7 @@ class Desk:
         self.person = person
         self.now_s = 1000.0
         self.guardians: list[ScriptedGuardian] = []
+        self.started_with: list[Settings] = []
         self.records: list[Record] = []
         self.trouble = ""
         self.changes: dict[Side, Callable[[Sample], Sample | None]] = {}
@@ -165,17 +188,19 @@ class Desk:
         self._rng = np.random.default_rng(3)
         self._seq = dict.fromkeys(Side, 0)
         self._due_s = {Side.LEFT: self.now_s, Side.RIGHT: self.now_s + 0.005}
+        self.readers = {side: ReaderNotes() for side in Side}
         self.control = Control(
             settings=self.settings,
-            field=field_of(self.settings),
             model=open_model(MODEL),
             start_guardian=self._start_guardian,
+            readers=self.readers,
             gui_seen_s=lambda: self.now_s,
             record=self.records.append,
             clock=lambda: self.now_s,
             wall_clock=lambda: 1.8e9 + self.now_s,
         )
         for side in Side:
+            self.press(SensorJudged(side, FIT))
             self.control.handle(SensorTold(self.now_s, side, Connected("test")), self.now_s)
 
     @property
@@ -199,7 +224,7 @@ class Desk:
             self._turn()
         return self.state is until
 
-    def press(self, event: e.Event) -> None:
+    def press(self, event: Input) -> None:
         self.control.handle(event, self.now_s)
 
     def ready(self) -> "Desk":
@@ -229,7 +254,8 @@ class Desk:
     def of(self, topic: Topic) -> list[Record]:
         return [record for record in self.records if record.topic is topic]
 
-    def _start_guardian(self) -> GuardianPort:
+    def _start_guardian(self, settings: Settings) -> GuardianPort:
+        self.started_with.append(settings)
         if self.trouble:
             raise GuardianLost(self.trouble)
         self.guardians.append(ScriptedGuardian())

@@ -6,7 +6,8 @@ import pytest
 
 from gestureapp.cell import events as e
 from gestureapp.cell.arms import POSTURE_FORGOTTEN_S
-from gestureapp.cell.control import SILENT_TICKS, TICK_S
+from gestureapp.cell.control import TICK_S
+from gestureapp.cell.guardian_keeper import SILENT_TICKS
 from gestureapp.cell.inputs import GuardianSaid, SensorTold, ServoAsked
 from gestureapp.cell.records import Topic
 from gestureapp.cell.snapshot import CellState

@@ -5,8 +5,9 @@ from dataclasses import replace
 import numpy as np
 
 from gestureapp.cell import events as e
+from gestureapp.cell.controls import TRAINING_OPEN
 from gestureapp.cell.ear import describe_model, open_model
-from gestureapp.cell.inputs import ModelChosen, TrainingHeld
+from gestureapp.cell.inputs import ArmingHeld, ModelChosen
 from gestureapp.cell.snapshot import CellState
 from gestureapp.recognition.decision import Decision
 from gestureapp.recognition.ensemble import Ensemble, Layer
@@ -27,13 +28,13 @@ def blockers(desk) -> dict[str, tuple[str, str]]:
 
 def test_open_training_stands_against_arming_until_it_is_closed(desk):
     desk.ready()
-    desk.press(TrainingHeld(True))
+    desk.press(ArmingHeld(TRAINING_OPEN))
     desk.press(e.ArmPressed(desk.now_s))
 
     assert blockers(desk) == {"lock": ("training is open", "go back to Operate")}
     assert not desk.guardian.of(m.Arm)
 
-    desk.press(TrainingHeld(False))
+    desk.press(ArmingHeld(""))
     assert desk.state is S.READY
     desk.press(e.ArmPressed(desk.now_s))
     assert desk.run(0.5, S.ARMED)
@@ -60,7 +61,7 @@ def test_a_model_of_kind_onset_is_opened_with_its_own_recogniser(tmp_path):
 
 def test_opening_training_takes_the_permission_back(desk):
     desk.armed()
-    desk.press(TrainingHeld(True))
+    desk.press(ArmingHeld(TRAINING_OPEN))
 
     assert desk.state is S.NOT_READY
     assert desk.guardian.of(m.Disarm)
@@ -69,7 +70,7 @@ def test_opening_training_takes_the_permission_back(desk):
 def test_opening_training_while_arming_leaves_nothing_armed(desk):
     desk.ready()
     desk.press(e.ArmPressed(desk.now_s))
-    desk.press(TrainingHeld(True))
+    desk.press(ArmingHeld(TRAINING_OPEN))
     desk.run(1.0)
 
     assert desk.state is S.NOT_READY
@@ -78,7 +79,7 @@ def test_opening_training_while_arming_leaves_nothing_armed(desk):
 
 def test_opening_training_stops_a_robot_that_moves_as_disarm_does(desk):
     desk.moving()
-    desk.press(TrainingHeld(True))
+    desk.press(ArmingHeld(TRAINING_OPEN))
 
     (stop,) = desk.guardian.of(m.Stop)
     assert stop.reason is StopReason.DISARMED

@@ -6,7 +6,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from gestureapp.cell.engine import field_of
+from gestureapp.cell.controls import SETUP_OPEN, TRAINING_OPEN
+from gestureapp.cell.fitness import FIT, NOT_CALIBRATED, Judgement
+from gestureapp.cell.limits import field_of
 from gestureapp.cell.readiness import Facts, find_blockers
 from gestureapp.config import Settings
 from gestureapp.robot.gate import STATUS_MAX_AGE_S
@@ -48,12 +50,42 @@ READY = Facts(
     pose_age_s=0.1,
     field=field_of(Settings()),
     tool=0,
+    left_fit=FIT,
+    right_fit=FIT,
 )
 SILENT = "no data for 450 ms: switch the sensor on, bring it closer"
 
 
 def silent(side: Side) -> StreamHealth:
     return replace(healthy(side), is_alive=False, link=LinkState.NO_DATA, reason=SILENT)
+
+
+@pytest.mark.parametrize("side", Side)
+def test_a_sensor_that_nobody_has_judged_stands_against_arming(side: Side):
+    (blocker,) = find_blockers(replace(READY, **{f"{side.value}_fit": NOT_CALIBRATED}))
+    assert blocker.text == f"{side.value} sensor: not calibrated"
+    assert blocker.remedy == "Setup, step Calibrate"
+
+
+def test_facts_that_say_nothing_of_calibration_say_that_it_is_missing():
+    unknown = {"left_fit", "right_fit"}
+    facts = Facts(**{n: getattr(READY, n) for n in Facts.__slots__ if n not in unknown})
+    assert [b.id for b in find_blockers(facts)] == ["left_unfit", "right_unfit"]
+
+
+def test_postures_too_close_together_stand_against_arming():
+    judgement = Judgement("stop and start are only 60 degrees apart", "record them again")
+    (blocker,) = find_blockers(replace(READY, postures_fit=judgement))
+    assert (blocker.id, blocker.text, blocker.remedy) == (
+        "postures",
+        judgement.problem,
+        judgement.remedy,
+    )
+
+
+@pytest.mark.parametrize(("why", "name"), [(TRAINING_OPEN, "lock"), (SETUP_OPEN, "setup")])
+def test_an_open_page_stands_against_arming(why: str, name: str):
+    assert [(b.id, b.text) for b in find_blockers(replace(READY, lock=why))] == [(name, why)]
 
 
 def test_nothing_stands_against_arming_when_all_is_well():
@@ -198,7 +230,8 @@ def test_what_nobody_knows_yet_counts_as_not_ready():
         tool=0,
     )
     names = {blocker.id for blocker in find_blockers(unheard)}
-    assert names == {"left_sensor", "right_sensor", "model", "robot_link"}
+    unfit = {"left_unfit", "right_unfit"}
+    assert names == unfit | {"left_sensor", "right_sensor", "model", "robot_link"}
 
 
 @given(st.floats(0.0, 0.5, exclude_max=True))

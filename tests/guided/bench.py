@@ -10,6 +10,7 @@ from gestureapp.config import Settings
 from gestureapp.guided.desk import Desk
 from gestureapp.guided.values import GuidedSnapshot, Phase
 from gestureapp.recognition.values import Recognition
+from gestureapp.sensing.posture import BUILT_IN
 from gestureapp.sensing.store import SampleStore
 from gestureapp.sensing.stream import StreamTracker
 from gestureapp.sensing.values import (
@@ -40,7 +41,7 @@ class SensedArms:
     """The sensors of a cell without its robot; samples come as the bench lets them."""
 
     def __init__(self, settings: Settings) -> None:
-        self.settings = settings
+        self.settings, self.postures = settings, BUILT_IN
         self.left, self.right = SampleStore(), SampleStore()
         site = settings.site
         self.trackers = {

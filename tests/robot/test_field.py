@@ -7,7 +7,7 @@ import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
-from gestureapp.cell.engine import field_of
+from gestureapp.cell.limits import field_of
 from gestureapp.config import Settings
 from gestureapp.robot.arm import find_arm_limit
 from gestureapp.robot.obstacles import Column, KeepOut

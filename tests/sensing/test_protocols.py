@@ -4,16 +4,17 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from gestureapp.config import SensorSettings
 from gestureapp.errors import ConfigError
-from gestureapp.sensing.calibration import accel_of, calibrate
+from gestureapp.sensing.calibration import NOMINAL, Calibration, Matrix, accel_of, calibrate
 from gestureapp.sensing.protocols import BUILT_IN, protocol
 from gestureapp.sensing.values import Frame, Garbage, Impossible
 
-NOMINAL = SensorSettings()
-
 axis_g = st.floats(-4, 4)
 gain = st.floats(0.5, 2)
+
+
+def diagonal(x: float, y: float, z: float) -> Matrix:
+    return ((x, 0.0, 0.0), (0.0, y, 0.0), (0.0, 0.0, z))
 
 
 @pytest.mark.parametrize("known", BUILT_IN, ids=lambda known: known.name)
@@ -42,9 +43,16 @@ def test_a_name_like_none_gets_the_list_without_a_guess():
 
 @given(st.tuples(axis_g, axis_g, axis_g), st.tuples(axis_g, axis_g, axis_g), gain)
 def test_calibration_undoes_offset_and_gain(true_g, offset, factor: float):
-    settings = SensorSettings(offset=offset, gain=(factor, 1.0, 1 / factor))
-    read_g = tuple(t / k + o for t, o, k in zip(true_g, offset, settings.gain, strict=True))
-    assert calibrate(read_g, settings) == pytest.approx(true_g, abs=1e-9)
+    gains = (factor, 1.0, 1 / factor)
+    read_g = tuple(t / k + o for t, o, k in zip(true_g, offset, gains, strict=True))
+    assert calibrate(read_g, Calibration(offset, diagonal(*gains))) == pytest.approx(
+        true_g, abs=1e-9
+    )
+
+
+def test_calibration_takes_what_one_axis_shows_of_another_out_of_it():
+    matrix = ((1.0, 0.1, 0.0), (0.0, 1.0, 0.2), (0.3, 0.0, 1.0))
+    assert calibrate((1.0, 2.0, 3.0), Calibration(matrix=matrix)) == pytest.approx((1.2, 2.6, 3.3))
 
 
 def test_a_level_adxl330_reads_one_g_on_z():
@@ -80,11 +88,9 @@ def test_a_jump_to_40_g_names_value_axis_and_limit():
 
 
 def test_the_limit_is_the_sensors_not_the_calibrations():
-    settings = SensorSettings(gain=(0.1, 0.1, 0.1))
-    assert isinstance(
-        accel_of(Frame(None, (40.0, 0.0, 0.0)), protocol("csv"), settings), Impossible
-    )
-    wide = SensorSettings(gain=(2.0, 2.0, 2.0))
+    narrow = Calibration(matrix=diagonal(0.1, 0.1, 0.1))
+    assert isinstance(accel_of(Frame(None, (40.0, 0.0, 0.0)), protocol("csv"), narrow), Impossible)
+    wide = Calibration(matrix=diagonal(2.0, 2.0, 2.0))
     assert accel_of(Frame(None, (15.0, 0.0, 0.0)), protocol("csv"), wide) == (30.0, 0.0, 0.0)
 
 

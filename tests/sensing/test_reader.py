@@ -16,6 +16,7 @@ from gestureapp.clock import Clock
 from gestureapp.config import SensorSettings
 from gestureapp.errors import ConfigError, SensorDisconnected, WorkerError
 from gestureapp.sensing import reader as reader_module
+from gestureapp.sensing.calibration import Calibration
 from gestureapp.sensing.ports import Port, open_port
 from gestureapp.sensing.reader import SensorReader
 from gestureapp.sensing.values import (
@@ -107,16 +108,52 @@ def script(*pieces: bytes) -> Callable[[str, str], Port]:
 
 def test_csv_over_tcp_becomes_calibrated_samples(server: socket.socket):
     url = url_of(server)
-    with Bench(url, offset=(0.1, 0.0, 0.0), gain=(2.0, 1.0, 1.0)) as bench:
+    with Bench(url) as bench:
+        bench.reader.set_calibration(
+            Calibration((0.1, 0.0, 0.0), ((2.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.5, 1.0)))
+        )
         peer, _ = server.accept()
         with peer:
             peer.sendall(b"\n7,0.6,0,1\r\n8,0.1,-0.5,0.9\r\n")
             assert bench.next() == Connected(url)
             first, second = bench.samples(2)
     assert first.accel_g == (1.0, 0.0, 1.0)
-    assert second.accel_g == (0.0, -0.5, 0.9)
+    assert second.accel_g == (0.0, -0.5, 0.65)
     assert (first.seq, second.seq) == (0, 1)
     assert (first.counter, second.counter) == (7, 8)
+
+
+def test_another_port_and_protocol_are_used_without_a_new_reader(server: socket.socket):
+    with socket.create_server(("127.0.0.1", 0)) as other, Bench(url_of(server)) as bench:
+        other.settimeout(LIMIT_S)
+        first, _ = server.accept()
+        with first:
+            first.sendall(b"\n1,0,0,1\n")
+            assert bench.next(Sample).seq == 0
+            bench.reader.use(SensorSettings(url_of(other), "adxl330"))
+            second, _ = other.accept()
+            with second:
+                assert first.recv(1) == b"", "the old port is closed"
+                second.sendall(b"\n1,512,512,614\n")
+                sample = bench.next(Sample)
+    assert sample.seq == 1
+    assert sample.accel_g == pytest.approx((0.0, 0.0, 1.0), abs=0.01)
+
+
+def test_a_reader_that_waits_to_try_again_takes_another_port_at_once(server: socket.socket):
+    with Bench("") as bench:
+        assert isinstance(bench.next(), Disconnected)
+        bench.reader.use(SensorSettings(url_of(server), "csv"))
+        with server.accept()[0]:
+            assert bench.next(Connected) == Connected(url_of(server))
+
+
+def test_an_unknown_protocol_changes_nothing(server: socket.socket):
+    with Bench(url_of(server)) as bench, server.accept()[0] as peer:
+        with pytest.raises(ConfigError):
+            bench.reader.use(SensorSettings("loop://", "morse"))
+        peer.sendall(b"\n1,0,0,1\n")
+        assert bench.next(Sample).accel_g == (0.0, 0.0, 1.0)
 
 
 def test_adxl330_counts_become_g(server: socket.socket):
@@ -203,20 +240,23 @@ def test_nobody_there_is_told_once_and_the_server_is_found_when_it_comes():
 def test_waits_between_attempts_double_to_a_limit_and_start_over_with_data():
     waits: list[float] = []
 
-    class Stopping(threading.Event):
+    stopping = threading.Event()
+
+    class Woken(threading.Event):
         """Keeps how long it was waited on, and waits for nothing."""
 
         def wait(self, timeout: float | None = None) -> bool:
             waits.append(timeout or 0.0)
             if len(waits) == 8:
-                self.set()
-            return self.is_set()
+                stopping.set()
+            return False
 
     def opener(side: str, _: str) -> Port:
         return ScriptedPort(b"0,0,1\n") if len(waits) == 6 else open_port(side, "/dev/nothing")
 
     bench = Bench("script", opener=opener)
-    bench.reader._run(Stopping())
+    bench.reader._woken = Woken()
+    bench.reader._run(stopping)
     assert waits == [0.2, 0.4, 0.8, 1.6, 2.0, 2.0, 0.2, 0.4]
 
 

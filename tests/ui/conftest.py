@@ -19,10 +19,12 @@ from gestureapp.cell.snapshot import (
     RobotView,
     Snapshot,
 )
-from gestureapp.config import Settings
+from gestureapp.config import SensorSettings, Settings
 from gestureapp.gestures import LABELS
 from gestureapp.recognition.values import NO_GESTURE, Candidate, Recognition
 from gestureapp.robot.values import Direction, Pose, PoseIncrement, RobotStatus
+from gestureapp.sensing.calibration import Calibration
+from gestureapp.sensing.posture import BUILT_IN, LeftPostures
 from gestureapp.sensing.store import SampleStore
 from gestureapp.sensing.values import ArmPosture, LinkState, Sample, Side, StreamHealth
 from gestureapp.simulation.prompts import Prompt
@@ -193,6 +195,7 @@ class FakeCell:
 
     def __init__(self, shown: Snapshot) -> None:
         self.settings = Settings(is_simulation=True)
+        self.postures = BUILT_IN
         self.left = SampleStore()
         self.right = SampleStore()
         self.shown = shown
@@ -239,8 +242,31 @@ class FakeCell:
     def use_model(self, path: Path | None, problem: str = "", person: str = "") -> None:
         self.calls.append(f"use_model {path} {problem}".strip())
 
-    def hold_for_training(self, is_open: bool) -> None:
-        self.calls.append("training open" if is_open else "training closed")
+    def hold_arming(self, why: str) -> None:
+        self.calls.append(why or "arming free")
+
+    def use_sensor(self, side: Side, settings: SensorSettings) -> None:
+        self.calls.append(f"use_sensor {side.value} {settings.port}")
+
+    def use_calibration(self, side: Side, calibration: Calibration) -> None:
+        self.calls.append(f"use_calibration {side.value}")
+
+    def judge_sensor(self, side: Side, problem: str, remedy: str = "") -> None:
+        self.calls.append(f"judge_sensor {side.value} {problem}".strip())
+
+    def use_postures(self, postures: LeftPostures, problem: str = "", remedy: str = "") -> None:
+        self.postures = postures
+        self.calls.append(f"use_postures {problem}".strip())
+
+    def use_settings(self, settings: Settings) -> None:
+        self.settings = settings
+        self.calls.append("use_settings")
+
+    def begin_stop_test(self, label: str) -> None:
+        self.calls.append(f"begin_stop_test {label}")
+
+    def release_stop_test(self) -> None:
+        self.calls.append("release_stop_test")
 
     def shutdown(self) -> None:
         self.calls.append("shutdown")

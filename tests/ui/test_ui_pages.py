@@ -37,12 +37,12 @@ def test_the_training_locks_arming_for_as_long_as_it_is_open(room):
     room.press("navTrain")
     assert room.widget("trainPage").isVisible()
     assert not room.widget("operatePage").isVisible()
-    assert room.cell.calls == ["training open"]
+    assert room.cell.calls == ["training is open"]
     room.press("navTrain")
-    assert room.cell.calls == ["training open"], "it is open already"
+    assert room.cell.calls == ["training is open"], "it is open already"
     room.press("navOperate")
     assert room.widget("operatePage").isVisible()
-    assert room.cell.calls == ["training open", "training closed"]
+    assert room.cell.calls == ["training is open", "arming free"]
 
 
 def test_the_strip_says_that_arming_is_locked(room):
@@ -61,7 +61,7 @@ def test_the_training_opens_only_while_the_robot_is_at_rest(room, state):
     assert entry.isEnabled() is is_at_rest
     assert (entry.note == "") is is_at_rest
     QTest.mouseClick(entry, Qt.MouseButton.LeftButton)
-    assert room.cell.calls == (["training open"] if is_at_rest else [])
+    assert room.cell.calls == (["training is open"] if is_at_rest else [])
 
 
 def test_steps_that_need_a_person_say_so(room):

@@ -11,8 +11,8 @@ from pathlib import Path
 from gestureapp.benchmark.driven import training_beside
 from gestureapp.benchmark.faults.rig import Rig
 from gestureapp.benchmark.faults.scenario import Expected, Scenario
-from gestureapp.cell.control import SILENT_TICKS
 from gestureapp.cell.control import TICK_S as CONTROL_TICK_S
+from gestureapp.cell.guardian_keeper import SILENT_TICKS
 from gestureapp.clock import monotonic
 from gestureapp.config import SiteSettings
 from gestureapp.errors import WorkerError

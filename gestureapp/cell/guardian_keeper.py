@@ -1,0 +1,76 @@
+"""Keeps a guardian: starts one when there is none, notices a silent one, owes it a stop. Pure."""
+
+from collections.abc import Callable
+
+from gestureapp.cell.inputs import GuardianPort
+from gestureapp.errors import GuardianLost
+from gestureapp.robot import messages as m
+
+RESTART_S = 0.2
+"""Between two attempts to start a guardian."""
+SILENT_TICKS = 30
+"""A guardian is heard every 0.1 s. Counted in our own ticks: we may have stood still ourselves."""
+
+
+class GuardianKeeper:
+    """The guardian there is, if there is one. Owned by the control thread.
+
+    Args:
+        start: Starts one; raises GuardianLost.
+
+    Attributes:
+        trouble: Why the last attempt to start one failed; empty when it did not.
+    """
+
+    def __init__(self, start: Callable[[], GuardianPort]) -> None:
+        self._start = start
+        self._guardian: GuardianPort | None = None
+        self._tried_s = float("-inf")
+        self.trouble = ""
+        self._n_silent = 0
+        self._owed_stop: m.Stop | None = None
+
+    @property
+    def is_there(self) -> bool:
+        """One was started and is not gone."""
+        return self._guardian is not None
+
+    def keep(self, now_s: float) -> str:
+        """Start one if there is none. Returns a trouble that is new, or nothing."""
+        if self._guardian is not None or now_s - self._tried_s < RESTART_S:
+            return ""
+        self._tried_s = now_s
+        try:
+            self._guardian = self._start()
+        except GuardianLost as error:
+            before, self.trouble = self.trouble, str(error)
+            return "" if before == self.trouble else self.trouble  # told once
+        self.trouble, self._n_silent = "", 0
+        if self._owed_stop is not None:
+            self._guardian.send(self._owed_stop)
+            self._owed_stop = None
+        return ""
+
+    def send(self, message: m.ToGuardian) -> None:
+        """Say something; without a guardian only a stop is kept, for the next one."""
+        if self._guardian is not None:
+            self._guardian.send(message)
+        elif isinstance(message, m.Stop):
+            self._owed_stop = message
+
+    def heard(self) -> None:
+        """It has said something."""
+        self._n_silent = 0
+
+    def is_silent(self) -> bool:
+        """Whether it has said nothing for too many of our ticks; asked once a tick."""
+        self._n_silent += 1
+        return self._guardian is not None and self._n_silent > SILENT_TICKS
+
+    def forget(self) -> None:
+        """It is gone."""
+        self._guardian = None
+
+    def renew(self) -> None:
+        """Let it go, and start another one at once: it takes other limits only at its start."""
+        self._guardian, self._tried_s = None, float("-inf")
