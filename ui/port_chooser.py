@@ -99,7 +99,6 @@ class PortChooser(QWidget):
         line = self._port.lineEdit()
         if line is not None:
             line.setPlaceholderText(_NOWHERE)
-            self._port.setCompleter(None)  # it would finish a name that was not meant
             line.returnPressed.connect(self._take_typed)
         self._protocol.activated.connect(self._take_protocol)
 
