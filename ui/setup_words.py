@@ -1,14 +1,20 @@
 """Setting up in words: how far each step is, figures with their units. Pure; no widget."""
 
 import math
+from dataclasses import replace
+from datetime import datetime
 from enum import Enum
 
 from gestureapp.cell.snapshot import Snapshot
 from gestureapp.sensing.values import LinkState, Side, StreamHealth
 from gestureapp.setup.values import (
+    CalibrationView,
     Check,
+    LevelView,
     LinkTestView,
+    Outcome,
     PortChoice,
+    Position,
     PosturesView,
     SensorCard,
     SetupSnapshot,
@@ -171,3 +177,97 @@ def link_figure_texts(test: LinkTestView) -> tuple[str, ...]:
         lowest if lowest == "\u2013" else f"{lowest} or more",
         ms_text(test.set_trip_s),
     )
+
+
+RESIDUALS = (("Before", "Before"), ("After", "After"), ("Worst", "Worst"))
+"""Distances from 1 g: end of the objectName, and the caption."""
+
+
+def residual_texts(view: CalibrationView) -> tuple[str, ...]:
+    """How far from 1 g the positions read, as named in ``RESIDUALS``."""
+    return tuple(_mg_text(mg) for mg in (view.before_mg, view.after_mg, view.worst_mg))
+
+
+def position_words(position: Position) -> str:
+    """Which axis points where: ``Z up``."""
+    axis, way = position.value.split("-")
+    return f"{axis.upper()} {way}"
+
+
+def calibrate_sentence(card: SensorCard, view: CalibrationView, level: LevelView) -> str:
+    """What to do now with this sensor, in one sentence."""
+    if view.is_on:
+        return view.sentence
+    if level.outcome.check is Check.RUNNING:
+        return "Leave the sensor level and still."
+    if not card.health.is_alive:
+        return f"No data from the {card.side.value} arm's sensor: see Sensors first."
+    if view.outcome.check is not Check.NOT_RUN:
+        return view.verdict or view.sentence
+    if card.problem:
+        return f"{card.problem[0].upper()}{card.problem[1:]}."
+    return f"The {card.side.value} arm's sensor is calibrated."
+
+
+def level_words(level: LevelView) -> Outcome:
+    """A level check's end with its figures."""
+    found = level.outcome
+    if math.isnan(level.off_deg) or found.check in (Check.NOT_RUN, Check.RUNNING):
+        return found
+    figures = f"{level.off_deg:.1f}\u00b0 from level, {_mg_text(level.off_mg)} from 1 g"
+    return replace(found, text=f"{figures}. {found.text}" if found.text else figures)
+
+
+POSTURE_FIGURES = (
+    ("Between", "Between the two"),
+    ("Margin", "Margin left"),
+    ("Least", "Needed at least"),
+)
+"""Figures of the postures: end of the objectName, and the caption."""
+
+
+def posture_texts(view: PosturesView) -> tuple[str, ...]:
+    """The figures of the postures, as named in ``POSTURE_FIGURES``."""
+    figures = (view.between_deg, view.margin_deg, view.least_margin_deg)
+    return tuple("\u2013" if math.isnan(deg) else f"{deg:.0f}\u00b0" for deg in figures)
+
+
+def postures_sentence(view: PosturesView, is_left_alive: bool) -> str:
+    """What to do now for the postures, in one sentence."""
+    if view.is_on:
+        return view.sentence
+    if not view.person:
+        return "Choose a person first: see People."
+    if not is_left_alive:
+        return "No data from the left arm's sensor: see Sensors first."
+    if view.sentence:
+        return view.sentence
+    if view.wall_s:
+        return f"The postures of {view.person} are recorded."
+    return f"{view.person} uses the built-in postures."
+
+
+def postures_kept(view: PosturesView) -> str:
+    """When the postures that are used were recorded."""
+    if not view.wall_s:
+        return "The built-in postures are used."
+    return f"Recorded {datetime.fromtimestamp(view.wall_s):%Y-%m-%d %H:%M}."
+
+
+def posture_level(view: PosturesView) -> Level:
+    """How much the postures want a person."""
+    if view.is_on:
+        return Level.BUSY
+    is_bad = posture_problem(view) or view.outcome.check is Check.FAILED
+    return Level.ATTENTION if is_bad else Level.OK
+
+
+def sensor_task(card: SensorCard) -> tuple[Level, str]:
+    """How the calibration of a sensor stands: its mark, and in words."""
+    if card.problem:
+        return Level.ATTENTION, card.problem
+    return Level.OK, card.calibration
+
+
+def _mg_text(mg: float) -> str:
+    return "\u2013" if math.isnan(mg) else f"{mg:.1f} mg" if mg < 10 else f"{mg:.0f} mg"
