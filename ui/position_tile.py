@@ -15,25 +15,26 @@ _WORDS_PX = 104
 
 
 class PositionTile(QWidget):
-    """Dashed frame: missing; broad frame: hold still; plain frame with a tick: done.
+    """Dashed frame: missing; broad frame: hold still; plain frame with a tick: done; none: idle.
 
     GUI thread only.
 
     Attributes:
-        view: What is shown.
+        view: What is shown; None while nothing is under way or has just ended.
         is_wanted: It is the one to take now.
     """
 
     def __init__(self, position: Position, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self.setObjectName(f"position_{position.value}")
-        self.view = PositionView(position)
+        self._position = position
+        self.view: PositionView | None = None
         self.is_wanted = False
         self._drawing = LineDrawing(position.value)
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Expanding)
         self._name()
 
-    def show_view(self, view: PositionView, is_wanted: bool) -> None:
+    def show_view(self, view: PositionView | None, is_wanted: bool) -> None:
         """Show another moment of this position."""
         if (view, is_wanted) == (self.view, self.is_wanted):
             return
@@ -58,16 +59,18 @@ class PositionTile(QWidget):
         painter.setPen(self._pen(colours))
         painter.setBrush(QColor(colours.base))
         painter.drawRect(frame)
-        is_missing = self.view.state is PositionState.MISSING and not self.is_wanted
-        colour = QColor(colours.muted if is_missing else colours.text)
+        state = None if self.view is None else self.view.state
+        is_quiet = state in (None, PositionState.MISSING) and not self.is_wanted
+        colour = QColor(colours.muted if is_quiet else colours.text)
         words = QRectF(frame.right() - _WORDS_PX, frame.top(), _WORDS_PX - 4, frame.height())
         drawing = QRectF(frame.left(), frame.top(), words.left() - frame.left(), frame.height())
         self._drawing.paint(painter, drawing.adjusted(8, 8, -4, -8), colour)
         self._draw_words(painter, words, colour)
-        ring = QRectF(0, 0, _RING_PX, _RING_PX)
-        ring.moveCenter(words.center())
-        ring.moveBottom(words.bottom() - 10)
-        paint_ring(painter, ring, self.view.state, self.view.progress, colours)
+        if self.view is not None:
+            ring = QRectF(0, 0, _RING_PX, _RING_PX)
+            ring.moveCenter(words.center())
+            ring.moveBottom(words.bottom() - 10)
+            paint_ring(painter, ring, self.view.state, self.view.progress, colours)
         painter.end()
 
     def _draw_words(self, painter: QPainter, words: QRectF, colour: QColor) -> None:
@@ -77,7 +80,9 @@ class PositionTile(QWidget):
         painter.setFont(font)
         painter.setPen(colour)
         line = QRectF(words.left(), words.top() + 6, words.width(), 26)
-        painter.drawText(line, Qt.AlignmentFlag.AlignCenter, position_words(self.view.position))
+        painter.drawText(line, Qt.AlignmentFlag.AlignCenter, position_words(self._position))
+        if self.view is None:
+            return
         font.setPixelSize(LARGE_PX)
         font.setBold(self.view.state is PositionState.HOLD_STILL)
         painter.setFont(font)
@@ -86,6 +91,8 @@ class PositionTile(QWidget):
 
     def _pen(self, colours: Colours) -> QPen:
         join = Qt.PenJoinStyle.MiterJoin
+        if self.view is None:
+            return QPen(QColor(colours.line), 1, j=join)
         if self.view.state is PositionState.HOLD_STILL:
             return QPen(QColor(colours.info), 5, j=join)
         if self.view.state is PositionState.DONE:
@@ -96,5 +103,5 @@ class PositionTile(QWidget):
 
     def _name(self) -> None:
         wanted = ", wanted now" if self.is_wanted else ""
-        words = position_words(self.view.position)
-        self.setAccessibleName(f"{words}: {self.view.state.value}{wanted}")
+        state = "" if self.view is None else f": {self.view.state.value}{wanted}"
+        self.setAccessibleName(f"{position_words(self._position)}{state}")

@@ -8,10 +8,10 @@ from gestureapp.setup.controls import SetupControls
 from gestureapp.setup.values import PositionState, PosturesView
 from ui.arm_figure import LEFT_START, LEFT_STOP
 from ui.gesture_drawing import GestureDrawing
-from ui.labels import BigText, plain
+from ui.labels import BigText
 from ui.operate_page import framed
 from ui.progress_ring import paint_ring
-from ui.setup_parts import Figure, OutcomeLine, push, say
+from ui.setup_parts import Figure, OutcomeLine, push
 from ui.setup_words import POSTURE_FIGURES, posture_texts, postures_kept, postures_sentence
 from ui.theme import LARGE_PX, colours_of
 
@@ -31,7 +31,6 @@ class PosturesPanel(QFrame):
         self._stop = PostureTile("stopPosture", "stop", LEFT_STOP)
         self._start = PostureTile("startPosture", "start", LEFT_START)
         self._figures = [Figure(f"postures{key}", caption, 28) for key, caption in POSTURE_FIGURES]
-        self._kept = plain("posturesKept", LARGE_PX)
         self._outcome = OutcomeLine("posturesOutcome", LARGE_PX)
         self._begin = push("beginPostures", "Record postures", size_px=LARGE_PX)
         self._forget = push("forgetPostures", "Use the built-in ones", size_px=LARGE_PX)
@@ -54,8 +53,7 @@ class PosturesPanel(QFrame):
         self._start.show_state(_state(view.is_start_done, is_start_now), view.progress)
         for figure, text in zip(self._figures, posture_texts(view), strict=True):
             figure.show_value(text)
-        say(self._kept, postures_kept(view))
-        self._outcome.show_outcome(view.outcome)
+        self._outcome.show_outcome(view.outcome, postures_kept(view))
         word = "Stop recording" if view.is_on else "Record postures"
         if word != self._begin.text():
             self._begin.setText(word)
@@ -81,7 +79,7 @@ class PosturesPanel(QFrame):
         figures.addStretch(1)
         buttons = QHBoxLayout()
         buttons.setSpacing(8)
-        buttons.addWidget(self._kept, 1)
+        buttons.addWidget(self._outcome, 1)
         buttons.addWidget(self._forget)
         buttons.addWidget(self._begin)
         layout = QVBoxLayout(self)
@@ -90,7 +88,6 @@ class PosturesPanel(QFrame):
         layout.addWidget(self._sentence, 3)
         layout.addLayout(tiles, 6)
         layout.addLayout(figures)
-        layout.addWidget(self._outcome)
         layout.addLayout(buttons)
 
 

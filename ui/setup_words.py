@@ -93,7 +93,10 @@ def posture_problem(postures: PosturesView) -> str:
     """What is wrong with the left arm's postures; empty when nothing is."""
     if math.isnan(postures.margin_deg) or postures.margin_deg >= postures.least_margin_deg:
         return ""
-    return f"postures only {postures.margin_deg:.0f}\u00b0 apart"
+    return (
+        f"postures too close: margin {postures.margin_deg:.0f}\u00b0, "
+        f"{postures.least_margin_deg:.0f}\u00b0 needed"
+    )
 
 
 def link_level(card: SensorCard) -> Level:
@@ -179,7 +182,7 @@ def link_figure_texts(test: LinkTestView) -> tuple[str, ...]:
     )
 
 
-RESIDUALS = (("Before", "Before"), ("After", "After"), ("Worst", "Worst"))
+RESIDUALS = (("Before", "Off 1 g before"), ("After", "after"), ("Worst", "at worst"))
 """Distances from 1 g: end of the objectName, and the caption."""
 
 

@@ -9,7 +9,6 @@ from gestureapp.setup.values import (
     Check,
     LevelView,
     Position,
-    PositionView,
     SensorCard,
     SetupSnapshot,
 )
@@ -65,7 +64,7 @@ class SixPositionsPanel(QFrame):
         shown = {each.position: each for each in view.positions}
         for position, tile in self._tiles.items():
             is_wanted = view.is_on and position is view.wanted
-            tile.show_view(shown.get(position, PositionView(position)), is_wanted)
+            tile.show_view(shown.get(position), is_wanted)
         for figure, text in zip(self._figures, residual_texts(view), strict=True):
             figure.show_value(text)
         self._outcome.show_outcome(view.outcome, card.calibration)
