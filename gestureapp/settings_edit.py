@@ -13,7 +13,7 @@ from typing import Any, Final, cast, get_type_hints
 
 import tomlkit
 from tomlkit.exceptions import TOMLKitError
-from tomlkit.items import AoT, InlineTable, Table
+from tomlkit.items import AoT, Table
 
 from gestureapp.clock import Clock
 from gestureapp.config import SCHEMA_VERSION, Settings
@@ -133,7 +133,7 @@ def _put(document: tomlkit.TOMLDocument, name: str, value: Any) -> None:  # noqa
     table = cast("Any", document[table_name])
     if key in table and isinstance(table[key], AoT):
         table.pop(key)
-    has_room = not isinstance(table, InlineTable) and not any(
+    has_room = isinstance(table, Table) and not any(
         isinstance(item, AoT | Table) for item in table.values()
     )  # before tables of its own a comment would not stay with its key
     if key not in table and has_room:
