@@ -93,7 +93,7 @@ def _refused(
 
 
 def _parser(has_window: bool) -> argparse.ArgumentParser:
-    from gestureapp import training_commands
+    from gestureapp import config_commands, training_commands
 
     parser = argparse.ArgumentParser(
         prog="gestureapp",
@@ -106,6 +106,7 @@ def _parser(has_window: bool) -> argparse.ArgumentParser:
     commands = parser.add_subparsers(title="commands", metavar="COMMAND", required=not has_window)
     _add_simulate(commands)
     training_commands.add_commands(commands)
+    config_commands.add_commands(commands)
     _add_benchmark(commands)
     if has_window:
         _add_fault_subject(commands)

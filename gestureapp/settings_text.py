@@ -47,7 +47,7 @@ def settings_text(settings: Settings) -> str:
             lines += ["", *comment_on_table(type(values)), f"[{table.name}]"]
             for setting in fields(values):
                 lines += comment_on_key(type(values), setting.name)
-                lines.append(f"{setting.name} = {_toml(getattr(values, setting.name))}")
+                lines.append(f"{setting.name} = {toml(getattr(values, setting.name))}")
     return "\n".join(lines) + "\n"
 
 
@@ -80,7 +80,7 @@ def _comment_on(owner: type, name: str) -> str:
     elif unit:
         parts.append(f"In {unit}.")
     if found := choices(owner, name):
-        parts.append(f"One of: {', '.join(_toml(word) for word in found)}.")
+        parts.append(f"One of: {', '.join(toml(word) for word in found)}.")
     return " ".join(part for part in parts if part)
 
 
@@ -113,19 +113,20 @@ def _comment(text: str) -> Iterator[str]:
         yield f"# {line}"
 
 
-def _toml(value: object) -> str:
+def toml(value: object) -> str:
+    """A setting as it stands behind the equals sign."""
     match value:
         case bool():
             return str(value).lower()
         case int() | float():
             return repr(value)
         case KeepOutSettings():
-            pairs = (f"{f.name} = {_toml(getattr(value, f.name))}" for f in fields(value))
+            pairs = (f"{f.name} = {toml(getattr(value, f.name))}" for f in fields(value))
             return f"{{ {', '.join(pairs)} }}"
         case tuple():
-            return f"[{', '.join(_toml(item) for item in value)}]"
+            return f"[{', '.join(toml(item) for item in value)}]"
         case Enum():
-            return _toml(value.value)
+            return toml(value.value)
         case None:
             return '""'
         case str() | Path():
