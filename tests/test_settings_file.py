@@ -1,32 +1,23 @@
 """Settings come from layers of TOML; what is wrong in them is reported and never used."""
 
-from dataclasses import fields, replace
-from enum import Enum
-from pathlib import Path
+from dataclasses import replace
 
 import pytest
 from hypothesis import given, settings
-from hypothesis import strategies as st
 
 from gestureapp.config import (
-    YAWS_DEG,
     DriveMode,
-    PersonSettings,
-    RobotSettings,
     SensorSettings,
     Settings,
     SiteSettings,
-    TrainingSettings,
 )
-from gestureapp.robot.nx100 import NETWORK_INPUTS
-from gestureapp.settings_check import PAIRS, RANGES, named_values
+from gestureapp.settings_check import RANGES, named_values
 from gestureapp.settings_file import (
-    check_settings,
     default_settings_text,
     read_settings,
     settings_text,
 )
-from gestureapp.settings_narrowing import NARROWER
+from tests.made_settings import ALLOWED
 
 
 @pytest.fixture
@@ -123,94 +114,12 @@ def test_a_byte_order_mark_and_windows_lines_are_read(tmp_path):
     assert [(finding.setting, finding.line) for finding in found] == [("robot.toool", 4)]
 
 
-_TEXT = st.text(st.characters(codec="utf-8"), max_size=20)
-
-
-def _numbers(owner, name, value):
-    allowed = RANGES[owner, name]
-    if name == "supervision_input":
-        return st.sampled_from([0, *NETWORK_INPUTS])
-    if name == "yaw_deg":
-        return st.sampled_from(YAWS_DEG)
-    if isinstance(value, int):
-        return st.integers(int(allowed.low), int(allowed.high))
-    one = st.floats(allowed.low, allowed.high)
-    if not isinstance(value, tuple):
-        return one
-    several = st.tuples(*[one] * len(value))
-    if name.endswith("_range_deg"):
-        return several.map(sorted).map(tuple).filter(lambda pair: pair[0] < pair[1])
-    return several
-
-
-def _values(owner, name, value):
-    if isinstance(value, bool):
-        return st.booleans()
-    if isinstance(value, Enum):
-        return st.sampled_from(type(value))
-    if name == "host":
-        return st.sampled_from(["", "localhost"]) | st.ip_addresses().map(str)
-    if isinstance(value, str):
-        return _TEXT
-    if value is None:
-        return st.none() | st.just(Path('/models/Ådá \\ "x" \x7f.json'))
-    return _numbers(owner, name, value)
-
-
-def _tables(owner):
-    built_in = {field.name: field.default for field in fields(owner)}
-    kinds = {name: _values(owner, name, value) for name, value in built_in.items()}
-    return st.builds(owner, **kinds)
-
-
-def _in_order(made):
-    """The same settings with the two values of every pair the right way round, and room between."""
-    for low, high in PAIRS:
-        table = low.partition(".")[0]
-        names = [name.partition(".")[2] for name in (low, high)]
-        values = sorted(getattr(getattr(made, table), name) for name in names)
-        own = replace(getattr(made, table), **dict(zip(names, values, strict=True)))
-        made = replace(made, **{table: own})
-    robot = made.robot
-    room = min(robot.ext_radius_mm - robot.int_radius_mm, robot.ceiling_mm - robot.floor_mm)
-    return replace(made, robot=replace(robot, margin_mm=min(robot.margin_mm, room / 3)))
-
-
-_ALLOWED = (
-    st.builds(
-        Settings,
-        left=_tables(SensorSettings),
-        right=_tables(SensorSettings),
-        site=_tables(SiteSettings),
-        robot=_tables(RobotSettings),
-        person=_tables(PersonSettings),
-        training=_tables(TrainingSettings),
-    )
-    .map(_in_order)
-    .filter(lambda made: not check_settings(made))
-)
-
-
 @settings(max_examples=50, deadline=None)
-@given(made=_ALLOWED)
+@given(made=ALLOWED)
 def test_any_allowed_settings_survive_being_written_and_read(tmp_path_factory, made):
     path = tmp_path_factory.getbasetemp() / "any.toml"
     path.write_text(settings_text(made), encoding="utf-8")
     assert read_settings([path]) == (made, [])
-
-
-@settings(max_examples=50, deadline=None)
-@given(site=_ALLOWED, user=_ALLOWED)
-def test_a_user_file_never_widens_what_the_site_allows(tmp_path_factory, site, user):
-    folder = tmp_path_factory.getbasetemp()
-    (folder / "s.toml").write_text(settings_text(site), encoding="utf-8")
-    (folder / "u.toml").write_text(settings_text(user), encoding="utf-8")
-    loaded, found = read_settings([folder / "s.toml", folder / "u.toml"])
-    assert check_settings(loaded, site) == []
-    assert loaded.robot.speed_mm_s == min(site.robot.speed_mm_s, user.robot.speed_mm_s)
-    assert loaded.site.trip_level_s == min(site.site.trip_level_s, user.site.trip_level_s)
-    widened = {finding.setting for finding in check_settings(user, site)}
-    assert widened <= {finding.setting for finding in found}
 
 
 # What is wrong in a file.
@@ -340,58 +249,6 @@ def test_two_values_that_do_not_fit_leave_those_below(layer, text, setting, line
     assert loaded == Settings()
     assert [(one.setting, one.line) for one in found] == [(setting, line)]
     assert "must be below" in found[0].text
-
-
-@pytest.mark.parametrize(
-    ("table", "name", "site", "wider", "narrower"),
-    [
-        ("site", "trip_level_s", "0.15", "0.16", "0.14"),
-        ("site", "control_limit_s", "0.3", "0.31", "0.29"),
-        ("site", "gui_limit_s", "0.6", "0.61", "0.59"),
-        ("site", "stop_on_right_lost", "true", "false", "true"),
-        ("robot", "ext_radius_mm", "1100", "1100.1", "1099.9"),
-        ("robot", "int_radius_mm", "600", "599.9", "600.1"),
-        ("robot", "margin_mm", "30", "29.9", "30.1"),
-        ("robot", "margin_deg", "5", "4.9", "5.1"),
-        ("robot", "floor_mm", "-200", "-200.1", "-199.9"),
-        ("robot", "ceiling_mm", "900", "900.1", "899.9"),
-        ("robot", "column_radius_mm", "400", "0", "401"),
-        ("robot", "column_top_mm", "700", "699", "701"),
-        ("joints", "s_range_deg", "[-90, 90]", "[-91, 90]", "[-90, 89]"),
-        ("joints", "u_range_deg", "[-90, 95]", "[-90, 96]", "[-80, 80]"),
-        ("joints", "margin_deg", "12", "11", "13"),
-        ("joints", "wrist_margin_deg", "12", "11", "13"),
-        ("joints", "elbow_margin_deg", "12", "11", "13"),
-        ("joints", "shoulder_margin_mm", "120", "119", "121"),
-        ("robot", "speed_mm_s", "150", "150.1", "149.9"),
-        ("robot", "speed_deg_s", "12", "12.1", "11.9"),
-        ("robot", "rx_range_deg", "[130, 230]", "[129, 230]", "[131, 229]"),
-        ("robot", "ry_range_deg", "[-30, 30]", "[-30, 31]", "[-30, 30]"),
-        ("robot", "rz_range_deg", "[-30, 30]", "[-90, 90]", "[0, 1]"),
-    ],
-)
-def test_a_later_layer_may_narrow_a_motion_limit_and_not_widen_it(
-    layer, table, name, site, wider, narrower
-):
-    base = layer(_site(f"[{table}]\n{name} = {site}"))
-    by_site, found = read_settings([base])
-    assert found == []
-    user = layer(_site(f"[{table}]\n{name} = {wider}"), "user.toml")
-    loaded, found = read_settings([base, user])
-    assert loaded == by_site
-    assert [(one.file, one.setting, one.line) for one in found] == [(user, f"{table}.{name}", 3)]
-    assert "wider than the site allows" in found[0].text
-    assert read_settings([base], user) == (loaded, found)
-    user = layer(_site(f"[{table}]\n{name} = {narrower}"), "user.toml")
-    assert read_settings([base, user])[1] == []
-    assert f"{table}.{name}" in NARROWER
-
-
-def test_an_absent_site_file_leaves_the_built_in_limits_to_the_user(layer, tmp_path):
-    user = layer(_site("[robot]\nspeed_mm_s = 200"), "user.toml")
-    loaded, found = read_settings([tmp_path / "absent.toml", user])
-    assert loaded.robot.speed_mm_s == 100.0
-    assert "at most 100.0 mm/s" in found[0].text
 
 
 def test_a_missing_schema_is_reported_and_taken_as_ours(layer):
