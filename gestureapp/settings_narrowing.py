@@ -78,6 +78,7 @@ NO_LIMITS: Final[Mapping[str, str]] = {
     "robot.port": "the same",
     "robot.frame": "a fact of the cell, compared with what the controller tells",
     "robot.tool": "a fact of the cell, compared with what the controller tells",
+    "robot.yaw_deg": "where the operator stands, not how far the robot goes",
     "robot.tool_mm": "a fact of the tool: what is true is neither narrower nor wider",
 }
 """Every other setting of those tables, with why it has no narrower side (a test sees to it)."""

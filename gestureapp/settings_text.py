@@ -10,7 +10,7 @@ from enum import Enum
 from pathlib import Path
 from typing import Final
 
-from gestureapp.config import SCHEMA_VERSION, KeepOutSettings, RobotSettings, Settings
+from gestureapp.config import SCHEMA_VERSION, YAWS_DEG, KeepOutSettings, RobotSettings, Settings
 from gestureapp.robot.nx100 import NETWORK_INPUTS
 from gestureapp.settings_check import RANGES
 from gestureapp.settings_words import unit_of
@@ -18,6 +18,7 @@ from gestureapp.settings_words import unit_of
 _ATTRIBUTE: Final = re.compile(r"^    (\w+): ", re.MULTILINE)
 _COMMENT_COLUMNS: Final = 96
 _ALLOWED: Final[Mapping[tuple[type, str], str]] = {
+    (RobotSettings, "yaw_deg"): f"{', '.join(map(str, YAWS_DEG[:-1]))} or {YAWS_DEG[-1]}",
     (RobotSettings, "host"): "an IP address, or empty for none",
     (RobotSettings, "supervision_input"): (
         f"0, or a multiple of 10, {NETWORK_INPUTS[0]} to {NETWORK_INPUTS[-1]}"
