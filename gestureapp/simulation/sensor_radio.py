@@ -39,7 +39,8 @@ class RadioOptions:
         shortest_s, longest_s = self.gap_s
         if not 0.0 <= shortest_s <= longest_s <= GAP_MAX_S:
             text = f"must be two times from 0 to {GAP_MAX_S * 1000:g} ms, the shorter one first"
-            raise ConfigError("link-gap-ms", self.gap_s, text)
+            given = f"{shortest_s * 1000:g} to {longest_s * 1000:g}"
+            raise ConfigError("link-gap-ms", given, text)
         if not 0.0 <= self.loss <= 1.0:
             raise ConfigError("link-loss", self.loss, "must be 0 to 1")
         if not abs(self.clock_ppm) <= 100_000:
