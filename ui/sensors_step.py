@@ -125,7 +125,7 @@ class SensorsStep(QWidget):
         if not cell.left.is_ok:
             return "Without the left sensor, takes are recorded by the beat.", True
         if not self._was_stop_seen:
-            return "Lower the left arm and hold it level for a moment.", False
+            return "Hold the left arm in the stop posture for a moment.", False
         return "Both arms are fine.", True
 
 

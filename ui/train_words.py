@@ -192,4 +192,4 @@ def posture_text(posture: ArmPosture, was_stop_seen: bool) -> str:
     }[posture]
     if posture is ArmPosture.STOP or was_stop_seen:
         return f"Left arm now: {now}. The stop posture was seen."
-    return f"Left arm now: {now}. Lower it into the stop posture."
+    return f"Left arm now: {now}. Bring it to the stop posture."

@@ -15,7 +15,9 @@ from ui.labels import ElidedLabel, plain
 from ui.prompts import prompt_of
 from ui.theme import SMALL_PX, TEXT_PX, sized
 
-HOW = "A gesture is made with both arms together: the left arm is raised as the right arm moves"
+HOW = (
+    "Both arms together make a gesture: the left one takes the start posture as the right one moves"
+)
 FOLLOW_TIP = (
     "While guided training asks for gestures, the arms make them, with the timing of the person "
     "who wears the sensors; about one take in fifteen is done wrong on purpose. Moving an arm "
@@ -49,7 +51,7 @@ class VirtualOperator(Protocol):
         """The left arm takes the stop posture."""
 
     def gesture(self, label: str) -> None:
-        """Both arms together: the left one is raised as the right one makes this gesture."""
+        """Both arms together: the left one takes the start posture as the right one makes it."""
 
     def right_rest(self) -> None:
         """The right arm goes back to rest."""

@@ -54,7 +54,7 @@ class Stage:
         return True
 
     def arm(self) -> None:
-        """Lower the left arm and arm.
+        """Bring the left arm to the stop posture and arm.
 
         Raises:
             WorkerError: it does not arm; the text says what stands against it.

@@ -108,7 +108,7 @@ def _sensor_blockers(facts: Facts) -> Iterator[Blocker]:
             seen_s = math.floor(facts.stop_seen_s * 10) / 10  # else it could read as enough
             times = f"{seen_s:.1f} s, {facts.stop_wanted_s:g} s are needed"
             text = f"left arm is in the stop posture for {times}"
-        yield Blocker("left_stop", text, "lower the left arm and hold it level")
+        yield Blocker("left_stop", text, "hold the left arm still in the stop posture")
 
 
 def _own_blockers(facts: Facts) -> Iterator[Blocker]:

@@ -25,7 +25,7 @@ def _sentence(s: MachineState, drive_mode: DriveMode) -> str:
         case CellState.ACTIVATED:
             return f"{s.note}. Asking the robot." if s.is_proposed else "Watching the right arm."
         case CellState.MOVING if drive_mode is DriveMode.HOLD_TO_RUN:
-            return f"{s.note}. Lower the left arm to stop."
+            return f"{s.note}. Move the left arm out of the start posture to stop."
         case CellState.MOVING:
             return f"{s.note}. Bring the left arm to the stop posture to stop."
         case CellState.STOPPING if s.is_stop_unconfirmed:
@@ -40,8 +40,8 @@ def _sentence(s: MachineState, drive_mode: DriveMode) -> str:
 def _armed(s: MachineState) -> str:
     before = f"{s.note}. " if s.note else ""
     if not s.is_left_rested:
-        return f"{before}Lower the left arm to the stop posture first."
-    return f"{before}Raise the left arm and make a gesture with the right."
+        return f"{before}Bring the left arm to the stop posture first."
+    return f"{before}Take the start posture with the left arm and make a gesture with the right."
 
 
 def _after_stop(s: MachineState) -> str:

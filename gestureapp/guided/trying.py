@@ -164,7 +164,7 @@ class LiveTest:
             again = f"No activation within {PATIENCE_S:g} s. " if self._is_again else ""
             return f"{again}{self._asked}: {gesture(self._asked).words}."
         if not self._is_left_rested:
-            return "Lower the left arm to the stop posture."
+            return "Bring the left arm to the stop posture."
         return f"{self._answers[-1][0]}: heard {heard}." if n else "Get ready."
 
 

@@ -31,9 +31,9 @@ def batch_sentence(batch: Batch, label: str, n_good: int) -> str:
     if batch.pace is Pace.RHYTHM:
         return _by_rhythm(label)
     if batch.phase is Phase.TAKING:
-        return "Now back to the start, and the left arm down."
+        return "Now back to the start, and the left arm to its stop posture."
     if not batch.is_left_rested:
-        return "Lower the left arm to the stop posture."
+        return "Bring the left arm to the stop posture."
     return _hands_free(label)
 
 
@@ -47,8 +47,8 @@ def _by_rhythm(label: str) -> str:
 def _hands_free(label: str) -> str:
     words = gesture(label).words
     if is_held(label):
-        return f"{words.capitalize()}; then raise the left arm."
-    return f"{words.capitalize()} as you raise the left arm."
+        return f"{words.capitalize()}; then take the start posture with the left arm."
+    return f"{words.capitalize()} as the left arm takes the start posture."
 
 
 def _kept(n_good: int) -> str:

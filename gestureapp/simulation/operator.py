@@ -90,11 +90,11 @@ class OperatorClient:
         self._worker.stop()
 
     def left_start(self) -> None:
-        """Raise the left arm."""
+        """The left arm takes the start posture."""
         self._want(_Wish("arms", self._plan.left_start))
 
     def left_stop(self) -> None:
-        """Lower the left arm; a right hand that holds a turn goes to rest."""
+        """The left arm takes the stop posture; a right hand that holds a turn goes to rest."""
         self._want(_Wish("arms", self._plan.left_stop))
 
     def gesture(self, label: str) -> None:

@@ -138,13 +138,13 @@ class OperatorPlan:
     """When the hand is home if the gesture that was ordered last does not begin."""
 
     def left_start(self, now_s: float) -> list[Order]:
-        """Raise the left arm now."""
-        self.left = "raised: start"
+        """The left arm takes the start posture now."""
+        self.left = "in start posture"
         self._left_up_s = now_s
         return [Order(Side.LEFT, {"do": "take", "posture": ArmPosture.START.value})]
 
     def left_stop(self, now_s: float) -> list[Order]:
-        """Lower the left arm now; a right hand that is turned or has not begun goes to rest."""
+        """The left arm takes the stop posture; a right hand that is turned or waits rests."""
         orders = self._lower_left(now_s)
         if self._right_is_turned or now_s < self._right_begins_s:
             orders += self.right_rest(now_s)
@@ -188,7 +188,7 @@ class OperatorPlan:
         left_s = max(now_s + LEAD_S, self._left_down_s + tempo.stop_held_s)
         self.activation_s = max(left_s + self.timing.start_seen_s, ready_s - after_s)
         left_s = self._left_up_s = self.activation_s - self.timing.start_seen_s
-        self.left = "raised: start"
+        self.left = "in start posture"
         return [
             *orders,
             Order(Side.LEFT, {"do": "take", "posture": ArmPosture.START.value, "at_s": left_s}),
@@ -258,7 +258,7 @@ class OperatorPlan:
     def _lower_left(self, now_s: float) -> list[Order]:
         if self._is_left_up(now_s):
             self._left_down_s = now_s + self.timing.left_turn_s * LEFT_DOWN_FACTOR
-        self.left = "lowered: stop"
+        self.left = "in stop posture"
         self._left_up_s = None
         return [Order(Side.LEFT, {"do": "take", "posture": ArmPosture.STOP.value})]
 

@@ -66,7 +66,7 @@ def test_the_picture_shows_what_was_recognised_and_commanded(desk):
     assert picture.direction == Direction(0, +1, False)
     assert picture.robot.increment is not None
     assert (picture.robot.limited_by, picture.robot.speed) == ("the field", "100.0 mm/s")
-    assert picture.sentence == "Recognised X+. Lower the left arm to stop."
+    assert picture.sentence == "Recognised X+. Move the left arm out of the start posture to stop."
 
 
 def test_the_end_of_the_increment_leaves_the_cell_armed_but_the_arm_must_come_back_first(desk):

@@ -33,16 +33,20 @@ SENTENCES = [
     (
         replace(BASE, state=S.ARMED, note="", is_left_rested=True),
         HOLD,
-        "Raise the left arm and make a gesture with the right.",
+        "Take the start posture with the left arm and make a gesture with the right.",
     ),
     (
         replace(BASE, state=S.ARMED, note="no movement of the right arm"),
         HOLD,
-        "No movement of the right arm. Lower the left arm to the stop posture first.",
+        "No movement of the right arm. Bring the left arm to the stop posture first.",
     ),
     (replace(BASE, state=S.ACTIVATED), HOLD, "Watching the right arm."),
     (replace(BASE, state=S.ACTIVATED, proposed_s=0.0), HOLD, "Recognised X+. Asking the robot."),
-    (replace(BASE, state=S.MOVING), HOLD, "Recognised X+. Lower the left arm to stop."),
+    (
+        replace(BASE, state=S.MOVING),
+        HOLD,
+        "Recognised X+. Move the left arm out of the start posture to stop.",
+    ),
     (
         replace(BASE, state=S.MOVING),
         PAPER,

@@ -125,7 +125,7 @@ def test_nothing_is_asked_before_the_left_arm_is_down():
     trial.tick(step_s=5.0)
     assert (trial.test.view.asked, trial.test.view.text) == (
         "",
-        "Lower the left arm to the stop posture.",
+        "Bring the left arm to the stop posture.",
     )
     trial.tick(ArmPosture.START)
     assert trial.test.view.n_done == 0

@@ -84,7 +84,7 @@ def test_a_gesture_raises_the_left_arm_and_moves_the_right(operator, sensors):
         operator.gesture("X+")
         left.seen_s(lambda accel_g: detector.feed(accel_g) is ArmPosture.START)
         right.seen_s(lambda accel_g: accel_g[0] > 0.5)
-    assert "Left arm raised" in operator.describe()
+    assert "Left arm in start posture" in operator.describe()
     assert "X+, push forward" in operator.describe()
 
 

@@ -119,7 +119,7 @@ def test_the_arms_can_be_moved_one_by_one():
     operator = plan()
     assert operator.left_start(5.0) == [Order(Side.LEFT, {"do": "take", "posture": "start"})]
     assert operator.right_rest(6.0) == [Order(Side.RIGHT, {"do": "rest"})]
-    assert (operator.left, operator.right) == ("raised: start", "at rest")
+    assert (operator.left, operator.right) == ("in start posture", "at rest")
 
 
 def test_an_unknown_gesture_changes_nothing():
@@ -127,7 +127,7 @@ def test_an_unknown_gesture_changes_nothing():
     operator.left_start(5.0)
     with pytest.raises(KeyError):
         operator.gesture("W+", 6.0)
-    assert (operator.left, operator.right) == ("raised: start", "at rest")
+    assert (operator.left, operator.right) == ("in start posture", "at rest")
 
 
 WISH = st.one_of(
@@ -196,4 +196,4 @@ def test_a_gesture_that_has_to_wait_is_announced_as_waiting():
     hands.left_stop(11.0)
     hands.gesture("Z-", 11.1)
     assert hands.words(11.1).startswith("In 2 s")
-    assert hands.words(13.5) == "Left arm raised: start; right arm Z-, push down"
+    assert hands.words(13.5) == "Left arm in start posture; right arm Z-, push down"

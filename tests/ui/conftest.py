@@ -165,7 +165,7 @@ def moving(label: str = "X+", share: float = 0.4) -> Snapshot:
     return replace(
         base,
         state=CellState.MOVING,
-        sentence="The robot moves. Lower the left arm to stop it.",
+        sentence="The robot moves. Move the left arm out of the start posture to stop.",
         can_arm=False,
         posture=ArmPosture.START,
         recognition=recognised(label),
@@ -178,7 +178,7 @@ def moving(label: str = "X+", share: float = 0.4) -> Snapshot:
 def events(n: int) -> Iterator[EventLine]:
     texts = (
         "Armed by the operator",
-        "Left arm raised: activated",
+        "Start posture taken: activated",
         "Recognised X+ with certainty 0.93",
         "Robot moves 535.3 mm along X+",
         "Stopped: left sensor silent for 104 ms, limit 100 ms",

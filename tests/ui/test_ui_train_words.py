@@ -104,4 +104,4 @@ def test_level_and_posture_in_words():
     assert level_text(25.4, False) == "25\u00b0 off, hold it level"
     assert level_text(25.4, False, is_wanted=False) == "25\u00b0 from level"
     assert "was seen" in posture_text(ArmPosture.START, was_stop_seen=True)
-    assert "Lower it" in posture_text(ArmPosture.NEITHER, was_stop_seen=False)
+    assert "Bring it to the stop posture" in posture_text(ArmPosture.NEITHER, was_stop_seen=False)
