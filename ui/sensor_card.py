@@ -10,6 +10,7 @@ from ui.arm_plot import ArmPlot
 from ui.labels import plain
 from ui.marks import Level, Mark
 from ui.operate_page import framed
+from ui.pages import scrolled
 from ui.port_chooser import PortChooser
 from ui.setup_parts import Figure, OutcomeLine, push, say
 from ui.setup_words import ARM_WORK, FIGURES, figure_texts, link_level, link_word
@@ -143,13 +144,16 @@ class _Advice(QWidget):
         font.setFamilies(["DejaVu Sans Mono", "Consolas", "monospace"])
         self._bytes.setFont(font)
         self._tries = plain(f"{name}Advice", TEXT_PX + 1)
-        layout = QVBoxLayout(self)
-        layout.setContentsMargins(0, 4, 0, 0)
-        layout.setSpacing(6)
+        texts = QVBoxLayout()
+        texts.setContentsMargins(0, 4, 0, 0)
+        texts.setSpacing(6)
         for label in (self._reason, self._bytes, self._tries):
             label.setAlignment(Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignTop)
-            layout.addWidget(label)
-        layout.addStretch(1)
+            texts.addWidget(label)
+        texts.addStretch(1)
+        layout = QVBoxLayout(self)
+        layout.setContentsMargins(0, 0, 0, 0)
+        layout.addWidget(scrolled(texts, f"{name}AdviceArea", f"{name.capitalize()} arm: advice"))
 
     def show_card(self, card: SensorCard) -> None:
         """Show what is wrong with this sensor's data."""

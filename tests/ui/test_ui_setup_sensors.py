@@ -259,3 +259,18 @@ def test_the_stop_keys_stop_while_a_port_is_typed(room, key):
     line.setFocus()
     QTest.keyClick(line, key)
     assert room.cell.calls == ["stop"]
+
+
+def test_typing_a_port_moves_no_arm_of_the_demonstration(qtbot, cell, operator):
+    room = SetupRoom(cell, operator)
+    qtbot.addWidget(room.window)
+    room.enter("Sensors")
+    room.window.activateWindow()
+    assert QTest.qWaitForWindowActive(room.window, 5000)
+    combo(room, "leftPort").setFocus()
+    combo(room, "leftPort").lineEdit().selectAll()
+    for letter in "sad fog rat":
+        QTest.keyClick(QApplication.focusWidget(), letter)
+    assert combo(room, "leftPort").currentText() == "sad fog rat"
+    assert operator.done == []
+    room.window.close()
