@@ -120,5 +120,8 @@ class CellControls(Protocol):
     def release_stop_test(self) -> None:
         """The button was let go: a stop test under way is stopped, not measured."""
 
+    def tell(self, text: str) -> None:
+        """One line for the cell's story, no alarm."""
+
     def shutdown(self) -> None:
         """Stop and disarm the robot, close the record, end all threads and children. Idempotent."""

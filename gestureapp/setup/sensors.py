@@ -1,0 +1,140 @@
+"""Both arms' sensors: which is where, who belongs on which arm, whether they may be armed with."""
+
+from collections.abc import Callable, Mapping
+from pathlib import Path
+
+from gestureapp.cell.controls import CellControls
+from gestureapp.config import SensorSettings, Settings
+from gestureapp.errors import GestureAppError
+from gestureapp.sensing.values import Side, StreamHealth
+from gestureapp.setup.arm_sensor import ArmSensor
+from gestureapp.setup.port_watch import PortWatch
+from gestureapp.setup.sides import Sides, find_swapped, load_sides, save_sides
+from gestureapp.setup.values import PortChoice, SensorCard
+
+Remember = Callable[[Mapping[str, object]], Mapping[str, str]]
+"""Writes these settings, by dotted name, into the user's file and has them used; else why not."""
+
+
+class Sensors:
+    """Follows both sensors. Owned by the setup thread.
+
+    Args:
+        cell: Whose sensors.
+        data: The data folder.
+        remember: Keeps a chosen port for the next start, and has it used.
+        watch: Looks at the ports.
+
+    Attributes:
+        arms: Each arm's sensor.
+        trouble: Why something could not be kept; empty when everything was.
+    """
+
+    def __init__(
+        self, cell: CellControls, data: Path, remember: Remember, watch: PortWatch | None = None
+    ) -> None:
+        self._cell, self._data, self._remember = cell, data, remember
+        self._watch = watch or PortWatch()
+        self.arms = {side: ArmSensor(side, cell, data) for side in Side}
+        self._sides = load_sides(data)
+        self.trouble = ""
+
+    def look(
+        self, now_s: float, wall_s: float, health: dict[Side, StreamHealth], *, is_open: bool
+    ) -> None:
+        """Find out who is there, and tell the cell what may be armed with."""
+        streams = {side: (self._port_of(side), health[side]) for side in Side}
+        self._watch.look(now_s, streams, is_open=is_open)
+        for side, arm in self.arms.items():
+            arm.look(now_s, health[side], self._watch.port(self._port_of(side)))
+        self._adopt(now_s)
+        swapped = find_swapped(self._sides, self._seen())
+        for arm in self.arms.values():
+            arm.judge(wall_s, swapped)
+
+    def card(self, side: Side, health: StreamHealth, wall_s: float) -> SensorCard:
+        """One arm's sensor for the window."""
+        return self.arms[side].card(health, self._watch.advice[side], wall_s)
+
+    def ports(self) -> tuple[PortChoice, ...]:
+        """Of this machine, and those that are in use."""
+        return self._watch.choices(tuple(self._port_of(side) for side in Side))
+
+    def free_ports(self) -> tuple[PortChoice, ...]:
+        """Those that can be tried without taking one from the cell."""
+        return self._watch.free(tuple(self._port_of(side) for side in Side))
+
+    def choose(self, side: Side, port: str, protocol: str) -> None:
+        """Read this arm's sensor from there, and remember it; who is there then belongs there.
+
+        Raises:
+            ConfigError: there is no such protocol.
+        """
+        known = next((found for found in self.ports() if found.url == port), None)
+        before = self.arms[side].settings
+        name = before.name if before.port == port else ""
+        self._use({side: SensorSettings(port, protocol, name)})
+        self._sides = self._sides.assigned(side, "")
+        self._save_sides()
+        self._cell.tell(f"{side.value} sensor: {known.name if known else port}, {protocol}")
+
+    def swap(self) -> None:
+        """The left sensor is the right one from now on, and the other way round."""
+        settings = self._cell.settings
+        seen = self._seen()
+        self._use({Side.LEFT: settings.right, Side.RIGHT: settings.left})
+        self._sides = Sides(seen.right, seen.left)
+        self._save_sides()
+        self._cell.tell("left and right sensor are swapped")
+
+    def confirm(self) -> None:
+        """They are assigned rightly as they are: a person has shown it."""
+        self._sides = self._seen()
+        self._save_sides()
+
+    def _port_of(self, side: Side) -> str:
+        return sensor_of(self._cell.settings, side).port
+
+    def _seen(self) -> Sides:
+        left, right = (self.arms[side].known for side in (Side.LEFT, Side.RIGHT))
+        return Sides(left.id if left.stays else "", right.id if right.stays else "")
+
+    def _adopt(self, now_s: float) -> None:
+        """A sensor that was never seen belongs on the arm where it is seen first."""
+        seen, sides = self._seen(), self._sides
+        for side, arm in self.arms.items():
+            who = seen.of(side)
+            is_known = who in (sides.left, sides.right) or seen.left == seen.right
+            if who and not is_known and arm.is_seen(now_s):
+                sides = sides.assigned(side, who)
+        if sides != self._sides:
+            self._sides = sides
+            self._save_sides()
+
+    def _use(self, chosen: dict[Side, SensorSettings]) -> None:
+        """What cannot be written, as a file named at the start has it, is used until the end."""
+        changes = {
+            f"{side.value}.{name}": getattr(settings, name)
+            for side, settings in chosen.items()
+            for name in ("port", "protocol", "name")
+        }
+        wrong = self._remember(changes)
+        self.trouble = ""
+        if not wrong:
+            return
+        for side, settings in chosen.items():
+            self._cell.use_sensor(side, settings)
+        if not self._cell.settings.is_simulation:
+            why = "; ".join(dict.fromkeys(wrong.values()))
+            self.trouble = f"used until the end, but not remembered: {why}"
+
+    def _save_sides(self) -> None:
+        try:
+            save_sides(self._data, self._sides)
+        except GestureAppError as error:
+            self.trouble = f"which sensor is on which arm is not remembered: {error}"
+
+
+def sensor_of(settings: Settings, side: Side) -> SensorSettings:
+    """The settings of one arm's sensor."""
+    return settings.left if side is Side.LEFT else settings.right
