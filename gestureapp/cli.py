@@ -194,7 +194,8 @@ def _application(options: argparse.Namespace, open_window: "OpenWindow | None") 
     for finding in findings:
         sys.stderr.write(f"gestureapp: {finding}\n")
     demo = DemoOptions() if options.demo else None
-    with running_cell(settings, data_folder(options.data_dir), demo) as running:
+    folder = data_folder(options.data_dir)
+    with running_cell(settings, folder, demo, files, options.config) as running:
         for finding in findings:
             running.cell.tell(str(finding))
         return open_window(running, options.exit_after)

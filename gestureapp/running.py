@@ -3,7 +3,7 @@
 import contextlib
 import os
 import time
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, fields
 from pathlib import Path
 
@@ -12,6 +12,7 @@ import platformdirs
 from gestureapp import __version__
 from gestureapp.cell.engine import Cell
 from gestureapp.cell.last_time import LastTime, find_last_time
+from gestureapp.cell.limits import checked_limits
 from gestureapp.cell.snapshot import RecordingView
 from gestureapp.clock import monotonic
 from gestureapp.config import RobotSettings, Settings
@@ -19,11 +20,14 @@ from gestureapp.errors import ConfigError, RobotInUse
 from gestureapp.guided.guided import Guided
 from gestureapp.guided.trained import find_own_model
 from gestureapp.guided.trainer import Trainer
-from gestureapp.recording.people import last_person
+from gestureapp.recording.people import last_person, model_path
 from gestureapp.recording.session_writer import SessionWriter
 from gestureapp.robot.lock import find_other
-from gestureapp.sensing.values import Side
-from gestureapp.simulation.demo import DemoCell, DemoOptions
+from gestureapp.setup.people_desk import PeopleSource
+from gestureapp.setup.settings_desk import SettingsDesk
+from gestureapp.setup.settings_use import SettingsUse
+from gestureapp.setup.setup import Setup
+from gestureapp.simulation.demo import DemoCell, DemoOptions, keep_fresh_records
 from gestureapp.simulation.operator import OperatorClient
 
 APP_NAME = "gestureapp"
@@ -41,6 +45,7 @@ class RunningCell:
         last_time: What the guardian did when no application could show it, or None.
         guided: Guided training, started; nobody's takes are open.
         trainer: Trains the model of whoever is chosen there; started.
+        setup: Sensors, calibration, robot, settings and people; started.
     """
 
     cell: Cell
@@ -50,6 +55,7 @@ class RunningCell:
     last_time: LastTime | None
     guided: Guided
     trainer: Trainer
+    setup: Setup
 
 
 def data_folder(chosen: Path | None = None) -> Path:
@@ -79,7 +85,11 @@ def settings_files() -> list[Path]:
 
 @contextlib.contextmanager
 def running_cell(
-    settings: Settings, folder: Path, demo: DemoOptions | None = None
+    settings: Settings,
+    folder: Path,
+    demo: DemoOptions | None = None,
+    files: Sequence[Path] = (),
+    named: Path | None = None,
 ) -> Iterator[RunningCell]:
     """Start a cell; on leaving, the robot is stopped and everything is ended in order.
 
@@ -87,6 +97,8 @@ def running_cell(
         settings: Of the cell; in a demo the ports and the robot's address are the emulators'.
         folder: Where sessions, takes and models are kept.
         demo: Start emulators and use them instead of hardware.
+        files: The settings files, the user's last; without any, changes hold for this run only.
+        named: The settings file named at the start.
 
     Raises:
         GestureAppError: something could not be started.
@@ -96,6 +108,7 @@ def running_cell(
         if demo is not None:
             emulators = opened.enter_context(DemoCell(demo))
             settings = emulators.settings(settings)
+            keep_fresh_records(folder, settings, time.time())
         _refuse_second(settings.robot)
         recorder = SessionWriter(folder, monotonic, time.time, describe(settings))
         recorder.start()
@@ -105,9 +118,6 @@ def running_cell(
         cell = Cell(settings, recorder.put, lambda: _view_of(recorder), log_file, time.time)
         opened.callback(cell.shutdown)
         cell.start()
-        if settings.is_simulation:
-            for side in Side:
-                cell.judge_sensor(side, "")
         if last_time is not None:
             cell.tell(last_time.event)
         operator = emulators.operator if emulators is not None else None
@@ -119,7 +129,43 @@ def running_cell(
         trainer = Trainer(guided, folder, cell.use_model)
         opened.callback(trainer.shutdown)
         trainer.start_thread()
-        yield RunningCell(cell, operator, recorder, emulators, last_time, guided, trainer)
+        setup = _setup(
+            cell,
+            folder,
+            files,
+            named,
+            PeopleSource(
+                lambda person: _own_model(folder, person, guided, trainer),
+                lambda: (guided.snapshot().person, guided.takes()),
+            ),
+        )
+        opened.callback(setup.shutdown)
+        setup.start_thread()
+        yield RunningCell(cell, operator, recorder, emulators, last_time, guided, trainer, setup)
+
+
+def _setup(
+    cell: Cell, folder: Path, files: Sequence[Path], named: Path | None, source: PeopleSource
+) -> Setup:
+    settings = cell.settings
+    use = SettingsUse(cell, settings)
+    desk = SettingsDesk(files, named, settings, use, _check_as_a_whole, cell.tell)
+    return Setup(cell, folder, desk, source)
+
+
+def _check_as_a_whole(settings: Settings) -> None:
+    """Raises ConfigError: the settings contradict each other."""
+    checked_limits(settings)
+
+
+def _own_model(
+    folder: Path, person: str, guided: Guided, trainer: Trainer
+) -> tuple[Path, str] | None:
+    """The model that a person has trained here; of one who is open in the training it is known."""
+    if person != guided.snapshot().person:
+        return find_own_model(folder, person)
+    path = model_path(folder, person)
+    return (path, trainer.view().out_of_date) if path.exists() else None
 
 
 def _first_person(settings: Settings, folder: Path) -> str:

@@ -21,6 +21,7 @@ def open_window(
         running.last_time,
         running.guided,
         running.trainer,
+        running.setup,
     )
 
 

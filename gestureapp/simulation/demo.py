@@ -12,6 +12,7 @@ from gestureapp.children import child_command
 from gestureapp.clock import Clock, monotonic
 from gestureapp.config import PersonSettings, RobotSettings, SensorSettings, Settings
 from gestureapp.errors import GestureAppError
+from gestureapp.recording.sensor_records import SensorRecord, save_record
 from gestureapp.sensing.values import Side
 from gestureapp.simulation.child import EmulatorProcess
 from gestureapp.simulation.operator import OperatorClient
@@ -115,8 +116,8 @@ class DemoCell:
         base = Settings() if base is None else base
         return replace(
             base,
-            left=SensorSettings(self._url(self.left), self.options.left_protocol),
-            right=SensorSettings(self._url(self.right), self.options.right_protocol),
+            left=SensorSettings(self._url(self.left), self.options.left_protocol, "demo left"),
+            right=SensorSettings(self._url(self.right), self.options.right_protocol, "demo right"),
             robot=_at(base.robot, self.nx100.port),
             person=PersonSettings("Demo operator", MODEL),
             is_simulation=True,
@@ -170,3 +171,21 @@ class DemoCell:
 
 def _at(robot: RobotSettings, port: int) -> RobotSettings:
     return replace(robot, host=HOST, port=port, tool=0, tool_mm=(0.0, 0.0, 0.0))
+
+
+def keep_fresh_records(data: Path, settings: Settings, wall_s: float) -> None:
+    """Keep for both sensors, by their names, that they were calibrated just now.
+
+    The emulated ones are as their data sheets say, so that a demo can be armed at once.
+
+    Args:
+        data: The data folder.
+        settings: Of a cell that works on emulators.
+        wall_s: Now, seconds since the epoch.
+
+    Raises:
+        RecordingError: the data folder cannot be written to.
+    """
+    for sensor in (settings.left, settings.right):
+        record = SensorRecord(sensor.name, calibrated_wall_s=wall_s, verdict="emulated")
+        save_record(data, record)

@@ -13,6 +13,7 @@ import pytest
 from gestureapp.cell.last_time import find_last_time
 from gestureapp.cell.snapshot import CellState
 from gestureapp.children import child_environment
+from gestureapp.recording.sensor_records import SensorRecord, save_record
 from gestureapp.robot.acts import Act, Did
 from gestureapp.robot.values import StopReason
 from gestureapp.running import running_cell
@@ -160,6 +161,8 @@ def test_an_application_killed_while_moving_is_told_of_at_the_next_start(tmp_pat
     folder.mkdir()
     with Bench(tmp_path) as bench:
         bench.until(lambda s: s.robot.is_connected)
+        for port in (bench.settings.left.port, bench.settings.right.port):
+            save_record(folder, SensorRecord(port, calibrated_wall_s=time.time()))
         bench.cell.shutdown()  # the emulators are for the other application
         program = [
             sys.executable,

@@ -16,7 +16,7 @@ from gestureapp.errors import WorkerError
 from gestureapp.sensing.values import Side
 from gestureapp.settings_file import settings_text
 from gestureapp.simulation.control_link import ControlLink
-from gestureapp.simulation.demo import HOST, DemoCell, DemoOptions
+from gestureapp.simulation.demo import HOST, DemoCell, DemoOptions, keep_fresh_records
 from gestureapp.simulation.operator_plan import Timing
 from gestureapp.simulation.wearer import person_of
 
@@ -70,6 +70,7 @@ class Rig:
             arguments = ("--control-port", "0", "--log", str(log_file))
             self.demo = opened.enter_context(DemoCell(DemoOptions(nx100_arguments=arguments)))
             self.settings = replace(self.demo.settings(Settings()), is_simulation=False)
+            keep_fresh_records(self.folder, self.settings, time.time())
             self._config.write_text(settings_text(self.settings), "utf-8")
             self.log = ControllerLog(log_file)
             self.sensors = {
