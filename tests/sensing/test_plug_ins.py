@@ -7,10 +7,9 @@ from pathlib import Path
 
 import pytest
 
-from gestureapp.config import SensorSettings
 from gestureapp.errors import ConfigError
 from gestureapp.sensing import protocols as protocols_module
-from gestureapp.sensing.calibration import accel_of
+from gestureapp.sensing.calibration import NOMINAL, accel_of
 from gestureapp.sensing.decoder import LineDecoder
 from gestureapp.sensing.plug_ins import GROUP, load_plug_ins
 from gestureapp.sensing.protocols import BUILT_IN, Protocol, plug_in_findings, protocol, protocols
@@ -130,6 +129,19 @@ def load(*things: object) -> tuple[tuple[Protocol, ...], tuple[str, ...]]:
     return load_plug_ins(points, BUILT_IN_NAMES)
 
 
+class _Decoder:
+    """Does what it is told with the bytes."""
+
+    def __init__(self, does: Callable[[bytes], object]) -> None:
+        self._does = does
+
+    def feed(self, data: bytes) -> object:
+        return self._does(data) if data else []
+
+    def end(self) -> object:
+        return self._does(b"end")
+
+
 def _raise(error: Exception) -> object:
     raise error
 
@@ -148,6 +160,7 @@ def _raise(error: Exception) -> object:
         (made(limit_g=float("inf")), "its limit_g inf"),
         (made(limit_g="16 g"), "its limit_g '16 g'"),
         (made(new_decoder=lambda: object()), "its decoder has no feed and end"),
+        (made(new_decoder=lambda: _Decoder(lambda data: None)), "gives no list of events"),
         (made(new_decoder=lambda: _raise(OSError("no port"))), "it fails with OSError: no port"),
         (made(to_nominal_g=lambda raw: 1.0), "it fails with TypeError: 1.0 instead of three"),
         (made(to_nominal_g=lambda raw: ("a", "b", "c")), "instead of three numbers"),
@@ -170,21 +183,9 @@ def test_of_two_plug_ins_with_one_name_neither_is_used():
     assert "both give it; remove one" in findings[0]
 
 
-class _Decoder:
-    """Does what it is told with the bytes."""
-
-    def __init__(self, does: Callable[[bytes], object]) -> None:
-        self._does = does
-
-    def feed(self, data: bytes) -> object:
-        return self._does(data) if data else []
-
-    def end(self) -> object:
-        return self._does(b"end")
-
-
 def guarded(does: Callable[[bytes], object]) -> Protocol:
-    (known,), findings = load(made(new_decoder=lambda: _Decoder(does)))
+    made_with = iter([_Decoder(lambda data: [])])  # the one that is tried when it is loaded
+    (known,), findings = load(made(new_decoder=lambda: next(made_with, None) or _Decoder(does)))
     assert findings == ()
     return known
 
@@ -203,12 +204,21 @@ def guarded(does: Callable[[bytes], object]) -> Protocol:
 def test_a_decoder_of_a_plug_in_that_fails_gives_garbage(
     does: Callable[[bytes], object], words: str
 ):
-    decoder = guarded(lambda data: [] if data == b"end" else does(data)).new_decoder()
+    decoder = guarded(does).new_decoder()
     (event,) = decoder.feed(b"abc")
     assert isinstance(event, Garbage)
     assert (event.n_bytes, event.first_bytes) == (3, b"abc")
     assert words in event.reason
     assert decoder.end() == []
+
+
+def test_a_decoder_of_a_plug_in_that_fails_at_the_end_gives_garbage():
+    decoder = guarded(lambda data: [] if data == b"x" else _raise(OSError("end")))
+    started = decoder.new_decoder()
+    assert started.end() == []
+    assert started.feed(b"x") == []
+    (event,) = started.end()
+    assert event == Garbage(0, b"", "the plug-in 'mine' failed with OSError: end")
 
 
 def test_a_decoder_of_a_plug_in_begins_anew_after_it_failed():
@@ -232,6 +242,6 @@ def test_a_scale_that_fails_while_it_is_tried_is_a_finding(install: Install):
 
 def test_a_scale_that_fails_later_makes_an_impossible_value_of_that_frame():
     (known,), _ = load(made(to_nominal_g=lambda raw: (1 / (raw[0] - 1), raw[1], raw[2])))
-    good, bad = (accel_of(Frame(None, (x, 0.0, 1.0)), known, SensorSettings()) for x in (2, 1))
+    good, bad = (accel_of(Frame(None, (x, 0.0, 1.0)), known, NOMINAL) for x in (2, 1))
     assert good == (1.0, 0.0, 1.0)
     assert isinstance(bad, Impossible)
