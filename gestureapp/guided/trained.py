@@ -76,7 +76,8 @@ def find_own_model(data: Path, person: str) -> tuple[Path, str] | None:
     except RecordingError as error:
         return path, f"the takes of the model cannot be read: {error}"
     try:
-        return path, find_out_of_date(load_model(path), store.takes(), store.person)
+        out_of_date = find_out_of_date(load_model(path), store.takes(), store.person)
+        return path, store.damage or out_of_date
     except ModelError:
         return path, ""  # who opens it will say what is wrong with it
     finally:

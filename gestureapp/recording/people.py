@@ -77,9 +77,13 @@ def make_person_folder(data: Path, person: str) -> Path:
 
     Raises:
         DiskFull: no room is left there.
-        RecordingError: the name cannot be used, or the folder cannot be made or written to.
+        RecordingError: the name cannot be used, somebody else here is called nearly the same, or
+            the folder cannot be made or written to.
     """
     folder = person_folder(data, person)
+    if not folder.exists() and (there := look_alike(data, person)):
+        reason = f"there is already {there}; choose that name in the list, or another one"
+        raise RecordingError(data / PEOPLE_FOLDER, reason)
     try:
         folder.mkdir(parents=True, exist_ok=True)
     except OSError as error:
@@ -113,6 +117,19 @@ def list_people(data: Path) -> tuple[str, ...]:
         except RecordingError:
             continue
     return tuple(sorted(names, key=str.casefold))
+
+
+def look_alike(data: Path, person: str) -> str:
+    """Who here has a name that differs only in case, spaces or accents; empty when nobody."""
+    name, looks = clean_name(person), _looks_of(person)
+    others = (one for one in list_people(data) if one != name and _looks_of(one) == looks)
+    return next(others, "")
+
+
+def _looks_of(name: str) -> str:
+    """What is left of a name without spaces, accents and case; all of it where that is nothing."""
+    apart = unicodedata.normalize("NFKD", clean_name(name)).casefold()
+    return "".join(c for c in apart if not (c.isspace() or unicodedata.combining(c))) or name
 
 
 def note_last_person(data: Path, person: str) -> None:

@@ -54,10 +54,13 @@ class TakeDatabase:
 
     Attributes:
         path: As given.
+        was_empty: A file without a byte was there, and has been begun anew: its making was cut off,
+            or what was in it is gone.
     """
 
     def __init__(self, path: Path, person: str) -> None:
         self.path = path
+        self.was_empty = _is_empty(path)
         with self._in_words():
             self._db = sqlite3.connect(path, timeout=BUSY_WAIT_S, isolation_level=None)
         try:
@@ -167,6 +170,16 @@ class TakeDatabase:
             yield
         except sqlite3.Error as error:
             raise _error_of(self.path, error) from error
+
+
+def _is_empty(path: Path) -> bool:
+    """Whether there is a file with nothing in it, and no journal to bring something back."""
+    if path.with_name(f"{path.name}-journal").exists():
+        return False
+    try:
+        return path.stat().st_size == 0
+    except OSError:  # not there; or opening it says why not
+        return False
 
 
 def _error_of(path: Path, error: sqlite3.Error) -> RecordingError:

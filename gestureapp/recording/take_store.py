@@ -11,6 +11,7 @@ import zlib
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import Final
 
 import numpy as np
 from numpy.typing import NDArray
@@ -24,6 +25,10 @@ from gestureapp.recording.take_values import F64, Judgement, Take, Verdict
 
 State = tuple[str, bool, bool]
 """What of a take can change: its label, is_excluded, is_deleted."""
+
+_WAS_EMPTY: Final = (
+    "was empty and has been begun anew; if takes are missing, put a copy back in its place"
+)
 
 
 @dataclass(frozen=True, slots=True)
@@ -65,7 +70,8 @@ class TakeStore:
     Attributes:
         person: The name as it is kept.
         path: The database.
-        damage: Which takes could not be read and are left out; empty when all could.
+        damage: Which takes could not be read and are left out, or that the file was empty; empty
+            when nothing was wrong.
     """
 
     def __init__(self, data: Path, person: str) -> None:
@@ -262,6 +268,8 @@ class TakeStore:
             else:
                 self._takes[take.id] = take
         self.damage = _damage_words(self.path, left_out)
+        if self._db.was_empty:
+            self.damage = f"{self.path}: {_WAS_EMPTY}"
         changes = self._db.rows(
             "SELECT is_undone, id, words, take_id, old_label, old_excluded, old_deleted,"
             " new_label, new_excluded, new_deleted FROM change ORDER BY id"

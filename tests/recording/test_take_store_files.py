@@ -22,6 +22,7 @@ from gestureapp.recording.people import (
     clean_name,
     last_person,
     list_people,
+    look_alike,
     make_person_folder,
     model_path,
     note_last_person,
@@ -65,13 +66,38 @@ def test_two_names_never_share_a_folder_and_one_always_does(one, other):
         assert set(folder.name) <= set("abcdefghijklmnopqrstuvwxyz0123456789-")
 
 
+@pytest.mark.parametrize(
+    "typed", ["ana lopez", "Ana  López", "ANALÓPEZ", "Ána Lopez", "Ａna Lopez"]
+)
+def test_a_new_name_that_only_looks_alike_is_not_a_new_person(tmp_path: Path, typed: str):
+    TakeStore(tmp_path, "Ana Lopez").close()
+    with pytest.raises(RecordingError, match="there is already Ana Lopez; choose that name"):
+        TakeStore(tmp_path, typed)
+    assert list_people(tmp_path) == ("Ana Lopez",)
+    TakeStore(tmp_path, " Ana   Lopez ").close()
+    TakeStore(tmp_path, "Anna Lopez").close()
+
+
+def test_who_is_here_already_is_opened_whoever_looks_alike(tmp_path: Path):
+    TakeStore(tmp_path, "Ana").close()
+    for name in ("ana", "ANA"):  # as an earlier version made them
+        folder = person_folder(tmp_path, name)
+        folder.mkdir()
+        (folder / "name.txt").write_text(name)
+        TakeStore(tmp_path, name).close()
+    assert set(list_people(tmp_path)) == {"Ana", "ana", "ANA"}
+
+
 @given(st.lists(NAMES, max_size=4))
 @examples(max_examples=25)
 def test_everybody_who_has_a_folder_is_listed_by_name(names):
     with tempfile.TemporaryDirectory() as folder:
+        kept = set()
         for name in names:
-            make_person_folder(Path(folder), name)
-        assert set(list_people(Path(folder))) == {clean_name(name) for name in names}
+            if not look_alike(Path(folder), name):
+                make_person_folder(Path(folder), name)
+                kept.add(clean_name(name))
+        assert set(list_people(Path(folder))) == kept
 
 
 @pytest.mark.parametrize(
@@ -217,6 +243,11 @@ def test_a_database_whose_making_was_cut_off_is_made_anew(tmp_path: Path):
     (folder / "takes.sqlite").write_bytes(b"")
     with closing(TakeStore(tmp_path, "Ana")) as store:
         assert add_take(store) == 1
+        assert "takes.sqlite: was empty and has been begun anew; if takes are" in store.damage
+    with closing(TakeStore(tmp_path, "Ana")) as store:
+        assert store.damage == ""
+    with closing(TakeStore(tmp_path, "Bo")) as store:
+        assert store.damage == "", "a new person has no empty file"
 
 
 ADDS_FOR_EVER = """
