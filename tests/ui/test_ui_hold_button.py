@@ -1,8 +1,8 @@
 """The button that has to be held."""
 
 import pytest
-from PySide6.QtCore import QEvent, QPoint, Qt
-from PySide6.QtGui import QKeyEvent
+from PySide6.QtCore import QEvent, QPoint, QPointF, Qt
+from PySide6.QtGui import QFocusEvent, QKeyEvent, QMouseEvent
 from PySide6.QtWidgets import QApplication
 
 from ui.hold_button import HoldButton
@@ -99,3 +99,53 @@ def test_a_window_that_stalled_does_not_count_the_stall_as_holding(qtbot, button
     qtbot.waitUntil(lambda: button.progress > 0.0, timeout=5000)
     assert button.progress < 0.5
     assert held == []
+
+
+@pytest.fixture
+def let_go(button) -> list[str]:
+    heard: list[str] = []
+    button.let_go.connect(lambda: heard.append("let go"))
+    return heard
+
+
+def hold_down(qtbot, button, held) -> None:
+    qtbot.mousePress(button, Qt.MouseButton.LeftButton)
+    qtbot.waitUntil(lambda: bool(held), timeout=5000)
+    assert button.is_held
+
+
+@pytest.mark.parametrize("how", ["release", "leave", "hide", "disable", "focus"])
+def test_whatever_ends_the_hold_is_told_once(qtbot, button, held, let_go, how):
+    hold_down(qtbot, button, held)
+    assert let_go == []
+    match how:
+        case "release":
+            qtbot.mouseRelease(button, Qt.MouseButton.LeftButton)
+        case "leave":
+            qtbot.mouseMove(button, QPoint(-20, -20))
+            event = QMouseEvent(
+                QEvent.Type.MouseMove,
+                QPointF(-20, -20),
+                QPointF(-20, -20),
+                Qt.MouseButton.NoButton,
+                Qt.MouseButton.LeftButton,
+                Qt.KeyboardModifier.NoModifier,
+            )
+            QApplication.sendEvent(button, event)
+        case "hide":
+            button.hide()
+        case "disable":
+            button.setEnabled(False)
+        case "focus":
+            QApplication.sendEvent(button, QFocusEvent(QEvent.Type.FocusOut))
+    assert let_go == ["let go"]
+    assert not button.is_held
+    qtbot.mouseRelease(button, Qt.MouseButton.LeftButton)
+    assert let_go == ["let go"]
+    assert held == ["held"]
+
+
+def test_letting_go_too_early_tells_nothing(qtbot, button, held, let_go):
+    half_filled(qtbot, button)
+    qtbot.mouseRelease(button, Qt.MouseButton.LeftButton)
+    assert (held, let_go) == ([], [])
