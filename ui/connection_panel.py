@@ -19,6 +19,7 @@ from ui.draft_bar import heading
 from ui.labels import plain
 from ui.marks import Level, Mark
 from ui.pages import scrolled
+from ui.settings_draft import NEEDS_PIN
 from ui.theme import LARGE_PX, TEXT_PX, sized
 
 WHAT_IT_DOES = "Connecting only reads: nothing moves before somebody arms."
@@ -45,6 +46,7 @@ class ConnectionPanel(QWidget):
         self._connect.setObjectName("connectRobot")
         self._connect.setAccessibleName("Connect to the controller, reading only")
         self._trouble = plain("robotTrouble", TEXT_PX)
+        self._why_not = plain("robotLocked", TEXT_PX)
         self._allowed = plain("robotPortAllowed", TEXT_PX, is_wrapped=False)
         self._text = plain("robotText", LARGE_PX)
         self._rows: list[_Row] = []
@@ -66,7 +68,9 @@ class ConnectionPanel(QWidget):
             self._port.setText(used[1])
         self._allowed.setText(f"Allowed: {port.allowed}" if port.allowed else "")
         for widget in (self._host, self._port, self._connect):
-            widget.setEnabled(not host.is_locked)
+            widget.setEnabled(not host.is_locked and not host.fixed)
+        self._why_not.setText(host.fixed or (NEEDS_PIN if host.is_locked else ""))
+        self._why_not.setVisible(bool(self._why_not.text()))
 
     def show_card(self, card: RobotCard) -> None:
         """Show another moment of the robot."""
@@ -120,6 +124,7 @@ class ConnectionPanel(QWidget):
         layout.setSpacing(8)
         layout.addLayout(entry)
         layout.addWidget(self._trouble)
+        layout.addWidget(self._why_not)
         layout.addWidget(what)
         layout.addSpacing(4)
         layout.addWidget(heading("connectionTitle", "What the controller says"))

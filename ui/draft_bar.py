@@ -1,17 +1,16 @@
 """Below settings being edited: what is not applied yet, Undo and Apply; and the PIN before them."""
 
-from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QFrame, QHBoxLayout, QLabel, QLineEdit, QPushButton, QWidget
 
 from gestureapp.setup.controls import SetupControls
+from gestureapp.setup.lock import PIN_DIGITS
 from gestureapp.setup.values import LockView
-from ui.labels import ElidedLabel, plain
+from ui.background import Background
+from ui.labels import plain
 from ui.marks import Level, Mark
 from ui.setting_editor import LockMark
 from ui.settings_draft import SettingsDraft
 from ui.theme import LARGE_PX, TEXT_PX, sized
-
-MAX_PIN_DIGITS = 12
 
 
 class DraftBar(QFrame):
@@ -62,9 +61,8 @@ class LockBar(QFrame):
         self.setObjectName(name)
         self._controls = controls
         self._lock = LockMark()
-        self._text = ElidedLabel()
-        self._text.setObjectName(f"{name}Text")
-        self._text.setTextFormat(Qt.TextFormat.PlainText)
+        self._text = plain(f"{name}Text", TEXT_PX)
+        self._background = Background("PIN", self)
         self._pin = pin_field(f"{name}Pin", "The PIN")
         self._open = QPushButton("Unlock")
         self._open.setObjectName(f"{name}Open")
@@ -94,25 +92,16 @@ class LockBar(QFrame):
         for widget in (self._pin, self._open):
             widget.setVisible(is_closed)
         self._close.setVisible(lock.has_pin and lock.is_open)
-        text = lock_text(lock)
+        self.setVisible(bool(lock.text) or lock.has_pin)
+        text = lock.text
         if text != self._text.text():
             self._text.setText(text)
             self._text.setAccessibleName(text)
 
     def _give(self) -> None:
-        self._controls.open_lock(self._pin.text())
+        pin = self._pin.text()
+        self._background.run(lambda: self._controls.open_lock(pin), lambda _: None)
         self._pin.clear()
-
-
-def lock_text(lock: LockView) -> str:
-    """Whether settings that bear on motion are locked, and what happened last."""
-    if not lock.has_pin:
-        text = "No PIN is set: everybody here can change settings that bear on motion."
-    elif lock.is_open:
-        text = "The PIN was given: settings that bear on motion can be changed."
-    else:
-        text = "Settings that bear on motion are locked."
-    return f"{text} {lock.text}".strip()
 
 
 def pin_field(name: str, what: str) -> QLineEdit:
@@ -122,7 +111,7 @@ def pin_field(name: str, what: str) -> QLineEdit:
     field.setAccessibleName(what)
     field.setPlaceholderText("PIN")
     field.setEchoMode(QLineEdit.EchoMode.Password)
-    field.setMaxLength(MAX_PIN_DIGITS)
+    field.setMaxLength(PIN_DIGITS[1])
     field.setFixedWidth(110)
     return field
 

@@ -14,8 +14,9 @@ TURNS: Final = (0, 90, 180, -90)
 _AXES: Final = ("X+", "Y+", "X-", "Y-")
 """Of the robot, each a quarter turn to the left of the one before."""
 _BASE_SHARE: Final = 0.15
-_REACH_SHARE: Final = 0.3
-_STAND_SHARE: Final = 0.42
+_REACH_SHARE: Final = 0.23
+_OPERATOR_SHARE: Final = 0.14
+_STAND_SHARE: Final = 0.44
 """From the robot to the operator, of the drawing's smaller side."""
 
 
@@ -90,23 +91,28 @@ def _along(turn_deg: float, length: float) -> QPointF:
 
 def _draw_robot(painter: QPainter, centre: QPointF, size: float, colours: Colours) -> None:
     half = size * _BASE_SHARE / 2
-    base = QRectF(centre.x() - half, centre.y() - half, 2 * half, 2 * half)
-    painter.setPen(QPen(QColor(colours.muted), 1.5))
+    grey = QColor(colours.muted)
+    painter.setPen(QPen(grey, 1.5))
     painter.setBrush(QColor(colours.panel))
-    painter.drawRect(base)
+    painter.drawRect(QRectF(centre.x() - half, centre.y() - half, 2 * half, 2 * half))
     painter.drawEllipse(centre, half * 0.6, half * 0.6)
+    span = (half, size * _REACH_SHARE)
     for turn, name in ((0, "robot X+"), (90, "robot Y+")):
-        _draw_arrow(painter, centre, turn, (half, size * _REACH_SHARE), name, QColor(colours.muted))
+        _draw_arrow(painter, centre, turn, span, grey)
+        _name_beside(painter, centre + _along(turn, (span[0] + span[1]) / 2), turn, half + 3, name)
 
 
 def _draw_operator(
     painter: QPainter, at: QPointF, size: float, turn_deg: float, colours: Colours
 ) -> None:
     """Shoulders and head from above, and the way of the two gestures."""
-    blue = QColor(colours.info)
-    reach = size * _REACH_SHARE * 0.62
-    for turn, name in ((0, "X+ forward"), (90, "Y+ left")):
-        _draw_arrow(painter, at, turn_deg + turn, (size * 0.05, reach), name, blue)
+    span = (size * 0.04, size * _OPERATOR_SHARE)
+    for turn in (0, 90):
+        _draw_arrow(painter, at, turn_deg + turn, span, QColor(colours.info))
+    _name_beside(
+        painter, at + _along(turn_deg, span[1] * 0.7), turn_deg, size * 0.075 + 3, "X+ forward"
+    )
+    _name_beside(painter, at + _along(turn_deg + 90, span[1]), turn_deg + 180, 3, "Y+ left")
     painter.save()
     painter.translate(at)
     painter.rotate(-turn_deg)
@@ -119,24 +125,22 @@ def _draw_operator(
 
 
 def _draw_arrow(
-    painter: QPainter,
-    centre: QPointF,
-    turn_deg: float,
-    span: tuple[float, float],
-    name: str,
-    colour: QColor,
+    painter: QPainter, centre: QPointF, turn_deg: float, span: tuple[float, float], colour: QColor
 ) -> None:
-    """An arrow from one distance to another, with its name beyond the tip."""
+    """An arrow from one distance to another."""
     begin, tip = centre + _along(turn_deg, span[0]), centre + _along(turn_deg, span[1])
     painter.setPen(QPen(colour, 2))
     painter.drawLine(QLineF(begin, tip))
     painter.setBrush(QBrush(colour))
     wings = [tip + _along(turn_deg + side, 9) for side in (155, -155)]
     painter.drawPolygon(QPolygonF([tip, *wings]))
-    room = painter.fontMetrics().boundingRect(name).adjusted(-3, -1, 3, 1)
-    box = QRectF(0, 0, room.width(), room.height())
-    ahead = _along(turn_deg, 1.0)
-    box.moveCenter(
-        tip + QPointF(ahead.x() * (room.width() / 2 + 4), ahead.y() * (room.height() / 2 + 4))
-    )
+
+
+def _name_beside(painter: QPainter, at: QPointF, turn_deg: float, gap: float, name: str) -> None:
+    """A name to the right of a place on an arrow that points there, in the arrow's colour."""
+    room = painter.fontMetrics().boundingRect(name)
+    box = QRectF(0, 0, room.width() + 6, room.height() + 2)
+    away = _along(turn_deg - 90, 1.0)
+    reach = QPointF(away.x() * (box.width() / 2 + 8), away.y() * (box.height() / 2 + gap))
+    box.moveCenter(at + reach)
     painter.drawText(box, Qt.AlignmentFlag.AlignCenter, name)

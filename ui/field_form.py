@@ -2,6 +2,7 @@
 
 from collections.abc import Iterable
 
+from PySide6.QtGui import QShowEvent
 from PySide6.QtWidgets import (
     QButtonGroup,
     QGridLayout,
@@ -72,7 +73,14 @@ class SettingsForm(QWidget):
         layout.addWidget(area)
         draft.changed.connect(self._show)
 
+    def showEvent(self, event: QShowEvent) -> None:
+        """Build it when it is first seen; the draft may have changed meanwhile."""
+        super().showEvent(event)
+        self._show()
+
     def _show(self) -> None:
+        if not self.isVisible():
+            return
         if not self._editors and self._draft.rows:
             self._build()
         for editor in self._editors.values():
@@ -138,7 +146,6 @@ class DriveForm(QWidget):
         self._view = FacingView()
         self._words = plain("facingWords", TEXT_PX)
         self._lock = plain("facingLock", TEXT_PX)
-        self._lock.setText(NEEDS_PIN)
         self._group = QButtonGroup(self)
         self._turns: dict[int, ChoiceButton] = {}
         self._facing = QWidget()
@@ -181,7 +188,9 @@ class DriveForm(QWidget):
         turn = float(value) if isinstance(value, int | float) else 0.0
         self._view.show_turn(turn)
         self._words.setText(facing_text(turn))
-        self._lock.setVisible(row.is_locked)
+        why_not = row.fixed or (NEEDS_PIN if row.is_locked else "")
+        self._lock.setText(why_not)
+        self._lock.setVisible(bool(why_not))
         for each, button in self._turns.items():
-            button.setEnabled(not row.is_locked)
+            button.setEnabled(not why_not)
             button.setChecked(each == round(turn))

@@ -85,7 +85,7 @@ class PeopleStep(QWidget):
             return
         self._folk = folk
         while len(self._cards) < len(folk):
-            card = _Card(self._controls, self._choose, self._tell, len(self._cards))
+            card = _Card(self._controls, self._choose, self._tell, len(self._cards), folk[0])
             self._cards.append(card)
             self._list.insertWidget(len(self._cards) - 1, card)
         for i, card in enumerate(self._cards):
@@ -158,12 +158,13 @@ class _Card(QFrame):
         choose: Callable[[str], object],
         tell: Callable[[str], None],
         number: int,
+        row: PersonRow,
     ) -> None:
         super().__init__()
+        self._row = row
         self.setObjectName(f"person{number}")
         framed(self)
         self._controls, self._choose, self._tell = controls, choose, tell
-        self._who = ""
         self._mark = Mark(16)
         self._name = ElidedLabel()
         self._name.setObjectName(f"person{number}Name")
@@ -188,11 +189,11 @@ class _Card(QFrame):
             self._hands.addButton(button)
             self._hand_of[hand] = button
         self._lay_out()
-        self._use.clicked.connect(lambda: self._choose(self._who))
+        self._use.clicked.connect(lambda: self._choose(self._row.name))
 
     def show_person(self, row: PersonRow) -> None:
         """Show somebody."""
-        self._who = row.name
+        self._row = row
         self._mark.show_level(Level.BUSY if row.is_chosen else Level.OFF)
         self._name.setText(row.name)
         takes = "no takes" if not row.n_takes else f"{row.n_takes} takes"
@@ -208,7 +209,10 @@ class _Card(QFrame):
             button.setAccessibleName(f"{row.name} is {hand.value}")
 
     def _set_hand(self, hand: Handedness) -> None:
-        self._tell(self._controls.set_handedness(self._who, hand))
+        why_not = self._controls.set_handedness(self._row.name, hand)
+        self._tell(why_not)
+        if why_not:
+            self.show_person(self._row)
 
     def _short(self, text: str) -> str:
         metrics = self._use.fontMetrics()

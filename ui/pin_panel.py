@@ -3,15 +3,13 @@
 from PySide6.QtWidgets import QFrame, QHBoxLayout, QPushButton, QVBoxLayout, QWidget
 
 from gestureapp.setup.controls import SetupControls
+from gestureapp.setup.lock import PIN_DIGITS, WHAT_FOR
 from gestureapp.setup.values import LockView
+from ui.background import Background
 from ui.draft_bar import heading, pin_field
 from ui.labels import plain
 from ui.theme import SMALL_PX, TEXT_PX
 
-WORTH = (
-    "A PIN keeps operators and engineers apart: nobody changes a limit of motion by mistake. It is "
-    "no defence: whoever can write the settings file can do without it."
-)
 GIVE_FIRST = "Give the PIN first to change it or take it away."
 DIFFERENT = "The two are different; type the new PIN again."
 
@@ -23,6 +21,8 @@ class PinPanel(QFrame):
         super().__init__(parent)
         self.setObjectName("pinPanel")
         self._controls = controls
+        self._background = Background("PIN", self)
+        self._background.on_error(self._tell)
         self._new = pin_field("newPin", "A new PIN")
         self._again = pin_field("newPinAgain", "The new PIN again")
         self._new.setPlaceholderText("new PIN")
@@ -60,12 +60,16 @@ class PinPanel(QFrame):
         if pin != again:
             self._tell(DIFFERENT)
             return
-        self._tell(self._controls.set_pin(pin) or "The PIN is set.")
+        self._keep(pin, "The PIN is set.")
         self._new.clear()
         self._again.clear()
 
     def _take_away(self) -> None:
-        self._tell(self._controls.set_pin("") or "There is no PIN any more.")
+        self._keep("", "There is no PIN any more.")
+
+    def _keep(self, pin: str, done: str) -> None:
+        set_pin = self._controls.set_pin
+        self._background.run(lambda: set_pin(pin), lambda why_not: self._tell(why_not or done))
 
     def _tell(self, text: str) -> None:
         if text != self._said.text():
@@ -74,7 +78,7 @@ class PinPanel(QFrame):
 
     def _lay_out(self) -> None:
         worth = plain("pinWorth", SMALL_PX)
-        worth.setText(WORTH)
+        worth.setText(f"{PIN_DIGITS[0]} to {PIN_DIGITS[1]} digits. {WHAT_FOR}")
         entry = QHBoxLayout()
         entry.setSpacing(6)
         for widget in (self._new, self._again, self._set, self._clear):

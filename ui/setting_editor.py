@@ -112,12 +112,10 @@ class SettingEditor(QWidget):
             return
         _put(self._control, self._draft.text(self.name))
         wrong = self._draft.wrong.get(self.name, "")
-        self._control.setEnabled(not row.is_locked)
-        self._lock.setVisible(row.is_locked)
+        self._control.setEnabled(not row.is_locked and not row.fixed)
+        self._lock.setVisible(row.is_locked or bool(row.fixed))
         self._mark.setVisible(bool(wrong))
-        allowed = f"Allowed: {row.allowed}" if row.allowed else ""
-        locked = f"{NEEDS_PIN} {allowed}" if row.is_locked else allowed
-        self._note.setText(wrong or locked)
+        self._note.setText(wrong or _note_of(row))
         self._control.setAccessibleDescription(self._note.text())
         colours = colours_of(self.palette())
         palette = QPalette(self.palette())
@@ -170,6 +168,15 @@ class SettingEditor(QWidget):
 
     def _typed(self, text: str) -> None:
         self._draft.edit(self.name, text)
+
+
+def _note_of(row: SettingRow) -> str:
+    """Why it cannot be changed, and what it may be."""
+    why_not = f"{row.fixed[:1].upper()}{row.fixed[1:]}." if row.fixed else ""
+    if row.is_locked and not why_not:
+        why_not = "Locked."
+    allowed = f"Allowed: {row.allowed}" if row.allowed and not row.choices else ""
+    return f"{why_not} {allowed}".strip()
 
 
 def _control_for(row: SettingRow) -> Control:

@@ -7,11 +7,13 @@ from PySide6.QtCore import QObject, Signal
 
 from gestureapp.setup.controls import SetupControls
 from gestureapp.setup.values import SettingRow
+from ui.background import Background
 from ui.setting_values import NotReadable, caption_of, typed_value, value_text
 
 APPLIED: Final = (
     "Applied and kept in your settings file. What bears on motion is used once nothing may move."
 )
+APPLYING: Final = "Being applied\u2026"
 NEEDS_PIN: Final = "Locked: needs the PIN."
 _SHOWN: Final = 3
 """Names told of changes; more are counted."""
@@ -23,6 +25,7 @@ class SettingsDraft(QObject):
     Attributes:
         rows: The settings as they are used, by dotted name, in the order of the file.
         wrong: What is wrong with what was typed, by name, with what is allowed.
+        is_judged: ``wrong`` belongs to what was typed last.
         said: What came of the last ``apply``; empty once something is typed.
 
     Signals:
@@ -36,7 +39,10 @@ class SettingsDraft(QObject):
         self._controls = controls
         self.rows: dict[str, SettingRow] = {}
         self.wrong: Mapping[str, str] = {}
+        self.is_judged = True
         self.said = ""
+        self._background = Background("settings draft", self)
+        self._background.on_error(self._give_up)
         self._texts: dict[str, str] = {}
 
     def refresh(self) -> None:
@@ -75,17 +81,12 @@ class SettingsDraft(QObject):
 
     def apply(self) -> None:
         """Change the settings, all or none of them."""
+        if not self.can_apply:
+            return
+        self.said = APPLYING
         values = self.values()
-        if self.wrong or not values:
-            return
-        wrong = self._controls.change_settings(values)
-        if wrong:
-            self._judge(wrong)
-            return
-        self._texts.clear()
-        self.said = APPLIED
-        self.rows = {}
-        self.refresh()
+        self._background.run(lambda: self._controls.change_settings(values), self._applied)
+        self.changed.emit()
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -100,13 +101,16 @@ class SettingsDraft(QObject):
     @property
     def can_apply(self) -> bool:
         """Something was typed, and nothing is known to be wrong with it."""
-        return bool(self._texts) and not self.wrong and not self.is_locked
+        is_waiting = not self.is_judged or self.said == APPLYING
+        return bool(self._texts) and not self.wrong and not self.is_locked and not is_waiting
 
     @property
     def sentence(self) -> str:
         """What was typed and not applied, or what came of applying it; one line."""
         if not self._texts:
             return self.said or "Nothing is changed."
+        if self.said:
+            return self.said
         told = _told(self._texts)
         if self.is_locked:
             return f"{NEEDS_PIN} Not applied: {told}."
@@ -133,11 +137,39 @@ class SettingsDraft(QObject):
                 wrong[name] = str(error)
         return values, wrong
 
-    def _judge(self, wrong: Mapping[str, str] | None = None) -> None:
+    def _judge(self) -> None:
+        """Have what was typed judged; until then what was wrong before counts as wrong."""
         values, unreadable = self._read()
-        if wrong is None:
-            wrong = self._controls.check_settings(values) if values else {}
+        self.is_judged = not values
+        before = {name: text for name, text in self.wrong.items() if name in values}
+        self.wrong = {**before, **unreadable}
+        if values and not self._background.is_busy:
+            check = self._controls.check_settings
+            self._background.run(lambda: check(values), lambda wrong: self._judged(values, wrong))
+        self.changed.emit()
+
+    def _judged(self, asked: Mapping[str, object], wrong: Mapping[str, str]) -> None:
+        values, unreadable = self._read()
+        if asked != values:
+            self._judge()  # something else was typed meanwhile
+            return
+        self.is_judged = True
         self.wrong = {**wrong, **unreadable}
+        self.changed.emit()
+
+    def _applied(self, wrong: Mapping[str, str]) -> None:
+        if wrong:
+            self.said, self.wrong = "", wrong
+            self.changed.emit()
+            return
+        self._texts.clear()
+        self.said = APPLIED
+        self.wrong, self.rows = {}, {}
+        self.refresh()
+
+    def _give_up(self, text: str) -> None:
+        self.is_judged = False
+        self.said = f"The settings cannot be changed now: {text}"
         self.changed.emit()
 
 

@@ -120,9 +120,9 @@ class SettingsTree(QTreeWidget):
         text = draft.text(row.name) if is_changed else value_text(row)
         value = f"{' | '.join(text.splitlines())} {row.unit}".strip()
         mark = "wrong" if row.name in draft.wrong else "changed" if is_changed else ""
-        if row.is_locked:
-            mark = "locked"
-        item.setIcon(_MARK, self._lock if row.is_locked else QIcon())
+        if row.is_locked or row.fixed:
+            mark = "fixed" if row.fixed else "locked"
+        item.setIcon(_MARK, self._lock if row.is_locked or row.fixed else QIcon())
         for column, words in enumerate((caption_of(row.name), value, row.origin, mark)):
             if item.text(column) != words:
                 item.setText(column, words)

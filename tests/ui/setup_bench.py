@@ -18,6 +18,7 @@ from gestureapp.settings_check import (
 from gestureapp.settings_text import about, allowed, choices
 from gestureapp.settings_values import plain
 from gestureapp.settings_words import unit_of
+from gestureapp.setup.lock import NO_PIN
 from gestureapp.setup.values import (
     CalibrationView,
     FindingView,
@@ -115,6 +116,7 @@ def fine() -> SetupSnapshot:
             margin_deg=34.0,
             wall_s=1.79e9,
         ),
+        lock=LockView(text=NO_PIN),
     )
 
 
@@ -136,6 +138,8 @@ def every_setting(settings: Settings | None = None) -> tuple[SettingRow, ...]:
         key = name.rpartition(".")[2]
         said = (about(owner, key), plain(value), unit_of(name), allowed(owner, key))
         rows.append(SettingRow(name, *said, "built-in", False, choices(owner, key)))
+    if all(row.name != "robot.yaw_deg" for row in rows):
+        rows.append(SettingRow("robot.yaw_deg", "", 0, "deg", "0, 90, 180 or -90", "", False))
     return tuple(rows)
 
 
@@ -144,6 +148,8 @@ def wrong_in(rows: tuple[SettingRow, ...], changes: Mapping[str, object]) -> dic
     owners = {name: owner for name, owner, _ in named_values(Settings())}
     wrong = {}
     for name, value in changes.items():
+        if name not in owners:
+            continue
         frozen = tuple(map(_as_kept, value)) if isinstance(value, list) else value
         if text := why_out_of_range(owners[name], name.rpartition(".")[2], frozen):
             wrong[name] = text
