@@ -25,6 +25,7 @@ from gestureapp.simulation.nx100_values import ControllerOptions
 from gestureapp.simulation.operator import OperatorClient
 from gestureapp.simulation.operator_plan import Timing
 from gestureapp.simulation.sensor import DEMO_SEED, DEMO_SESSION, SensorEmulator, SensorOptions
+from gestureapp.simulation.sensor_radio import DIRECT, RadioOptions
 from gestureapp.simulation.wearer import person_of
 
 HOME = Pose(800.0, 0.0, 300.0, 180.0, 0.0, 0.0)
@@ -50,14 +51,22 @@ class Bench:
         is_broken: threading.Event | None = None,
         controller: ControllerOptions | None = None,
         supervision_input: int = 0,
+        protocols: tuple[str, str] = ("csv", "csv"),
+        radio: RadioOptions = DIRECT,
     ) -> None:
         """Start it; once ``is_broken`` is set, what the control thread records raises."""
         self._opened = contextlib.ExitStack()
         enter = self._opened.enter_context
         options = Nx100Options(controller=controller or ControllerOptions())
         self.nx100 = enter(Nx100Emulator(options))
+        speaks = dict(zip(Side, protocols, strict=True))
         self.sensors = {
-            side: enter(SensorEmulator(SensorOptions(side, control_port=0))) for side in Side
+            side: enter(
+                SensorEmulator(
+                    SensorOptions(side, control_port=0, protocol=speaks[side], radio=radio)
+                )
+            )
+            for side in Side
         }
         timing = Timing.of(person_of(DEMO_SEED, DEMO_SESSION, is_practised=True))
         left, right = (("127.0.0.1", self.sensors[side].control_port) for side in Side)
@@ -65,8 +74,8 @@ class Bench:
         self.operator.start()
         self._opened.callback(self.operator.close)
         self.settings = Settings(
-            left=SensorSettings(f"socket://127.0.0.1:{self.sensors[Side.LEFT].port}"),
-            right=SensorSettings(f"socket://127.0.0.1:{self.sensors[Side.RIGHT].port}"),
+            left=self._sensor(Side.LEFT),
+            right=self._sensor(Side.RIGHT),
             site=SITE,
             robot=RobotSettings(
                 host="127.0.0.1", port=self.nx100.port, supervision_input=supervision_input
@@ -87,6 +96,10 @@ class Bench:
         self.cell.start()
         for side in Side:
             self.cell.judge_sensor(side, "")
+
+    def _sensor(self, side: Side) -> SensorSettings:
+        emulator = self.sensors[side]
+        return SensorSettings(f"socket://127.0.0.1:{emulator.port}", emulator.options.protocol)
 
     def __enter__(self) -> Self:
         return self
