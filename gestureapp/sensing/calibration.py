@@ -24,6 +24,13 @@ class Calibration:
     offset_g: Vector = (0.0, 0.0, 0.0)
     matrix: Matrix = _IDENTITY
 
+    def applied(self, nominal_g: Vector) -> Vector:
+        """The specific force, x, y, z in g, behind a reading of the nominal scale."""
+        (x, y, z), (ox, oy, oz) = nominal_g, self.offset_g
+        x, y, z = x - ox, y - oy, z - oz
+        (a, b, c), (d, e, f), (g, h, i) = self.matrix
+        return (a * x + b * y + c * z, d * x + e * y + f * z, g * x + h * y + i * z)
+
 
 NOMINAL = Calibration()
 """As the data sheet says: a particular ADXL330 may be 10 % off."""

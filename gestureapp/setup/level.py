@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gestureapp.recording.sensor_records import LevelRecord, SensorRecord
-from gestureapp.sensing.calibration import Calibration, Vector, calibrate
+from gestureapp.sensing.calibration import Calibration, Vector
 from gestureapp.sensing.values import Side
 from gestureapp.setup.stillness import Still, Stillness
 from gestureapp.setup.values import Check, LevelView, Outcome
@@ -87,7 +87,7 @@ class LevelCheck:
 
     def _judge(self, still: Still) -> None:
         base = self._record.calibration
-        read = calibrate(_nominal(still.mean_g, self._record.used), base)
+        read = base.applied(_nominal(still.mean_g, self._record.used))
         off_deg, off_mg = off_level(read)
         problem = level_problem(off_deg, off_mg)
         used = base if problem else leveled(base, read)

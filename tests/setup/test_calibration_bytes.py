@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from gestureapp.recording.sensor_records import SensorRecord
-from gestureapp.sensing.calibration import NOMINAL, accel_of, calibrate
+from gestureapp.sensing.calibration import NOMINAL, accel_of
 from gestureapp.sensing.protocols import BUILT_IN
 from gestureapp.sensing.values import Frame, Side
 from gestureapp.setup.fit import UP
@@ -58,12 +58,12 @@ def test_six_positions_then_a_level_check_from_real_bytes(protocol, seed):
     record = machine.record(SensorRecord("a"), 1e9)
     for truth in rng.standard_normal((30, 3)):
         unit = truth / np.linalg.norm(truth)
-        corrected = calibrate(tuple(wire.part.without_noise(unit)), record.used)
+        corrected = record.used.applied(tuple(wire.part.without_noise(unit)))
         assert np.linalg.norm(corrected) == pytest.approx(1.0, abs=0.02)
 
     wire.calibration = record.used
     check = LevelCheck(Side.LEFT, record)
     assert wire.lies(check, turn((1.0, 0.5, 0.0)) @ [0, 0, 1.0], 2.5).outcome.check is Check.PASSED
     used = check.record(1e9 + 60).used
-    level = calibrate(tuple(wire.part.without_noise(turn((1.0, 0.5, 0.0)) @ [0, 0, 1.0])), used)
+    level = used.applied(tuple(wire.part.without_noise(turn((1.0, 0.5, 0.0)) @ [0, 0, 1.0])))
     assert level == pytest.approx((0, 0, 1), abs=0.006)

@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from gestureapp.sensing.calibration import NOMINAL, calibrate
+from gestureapp.sensing.calibration import NOMINAL
 from gestureapp.setup.fit import UP, fit_calibration
 from tests.setup.lying import ALL, OFF, OFF_OFFSET_G, turn
 
@@ -25,7 +25,7 @@ def left_mg(fit, sensor, offset_g, seed=0):
     """What is left in any direction, root of the mean square."""
     anywhere = np.random.default_rng(seed).standard_normal((300, 3))
     anywhere /= np.linalg.norm(anywhere, axis=1)[:, None]
-    corrected = [calibrate(tuple(sensor @ t + offset_g), fit.calibration) for t in anywhere]
+    corrected = [fit.calibration.applied(tuple(sensor @ t + offset_g)) for t in anywhere]
     return 1000 * float(np.sqrt(np.mean((np.linalg.norm(corrected, axis=1) - 1) ** 2)))
 
 
@@ -50,7 +50,7 @@ def test_a_sensor_askew_in_its_box_is_turned_into_it(askew):
     assert fit.is_good
     for truth in TRUTH:
         nominal = tuple(sensor @ truth + OFF_OFFSET_G)
-        assert calibrate(nominal, fit.calibration) == pytest.approx(truth, abs=0.02)
+        assert fit.calibration.applied(nominal) == pytest.approx(truth, abs=0.02)
 
 
 @settings(max_examples=40)
@@ -114,7 +114,7 @@ def test_a_calibration_that_is_taken_reads_one_g_in_every_position(numbers):
     fit = fit_calibration(means, ALL)
     if fit.is_good:
         for mean in means:
-            length = np.linalg.norm(calibrate(tuple(mean), fit.calibration))
+            length = np.linalg.norm(fit.calibration.applied(tuple(mean)))
             assert abs(length - 1.0) <= 0.020 + 1e-9
 
 

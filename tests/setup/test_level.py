@@ -6,7 +6,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from gestureapp.recording.sensor_records import SensorRecord
-from gestureapp.sensing.calibration import Calibration, calibrate
+from gestureapp.sensing.calibration import Calibration
 from gestureapp.sensing.values import Side
 from gestureapp.setup.level import LIMIT_DEG, LIMIT_MG, LevelCheck, leveled
 from gestureapp.setup.values import Check
@@ -24,7 +24,7 @@ def checked(record, up, seconds=2.5, noise_g=0.003):
     """Lay a sensor down whose six positions' calibration reads ``up`` there, and check it."""
     check = LevelCheck(Side.LEFT, record)
     nominal = nominal_of(np.tile(up, (round(seconds * 100), 1)))
-    used = np.array([calibrate(tuple(row), record.used) for row in nominal])
+    used = np.array([record.used.applied(tuple(row)) for row in nominal])
     fed(check, Lying(noise_g=noise_g).reads(used))
     return check
 
@@ -41,7 +41,7 @@ def test_within_the_limits_it_reads_level_from_then_on(x_deg, y_deg, scale):
     record = check.record(2e9)
     assert (record.level.is_level, record.level.wall_s) == (True, 2e9)
     assert record.calibration == BASE
-    assert calibrate(tuple(nominal_of(up)), record.used) == pytest.approx((0, 0, 1), abs=2e-3)
+    assert record.used.applied(tuple(nominal_of(up))) == pytest.approx((0, 0, 1), abs=2e-3)
 
 
 @settings(max_examples=40)

@@ -6,7 +6,6 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from gestureapp.recording.sensor_records import LevelRecord, SensorRecord
-from gestureapp.sensing.calibration import calibrate
 from gestureapp.sensing.values import Side
 from gestureapp.setup.fit import UP
 from gestureapp.setup.six_positions import SixPositions
@@ -43,7 +42,7 @@ def test_any_order_of_the_six_positions_calibrates_the_sensor(order, chunk, seed
     anywhere /= np.linalg.norm(anywhere, axis=1)[:, None]
     for truth in anywhere:
         nominal = tuple(OFF @ truth + OFF_OFFSET_G)
-        assert calibrate(nominal, machine.fit.calibration) == pytest.approx(truth, abs=0.005)
+        assert machine.fit.calibration.applied(nominal) == pytest.approx(truth, abs=0.005)
 
 
 def test_a_position_shows_how_long_it_is_still_to_be_left_alone():
