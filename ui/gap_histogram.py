@@ -9,6 +9,7 @@ from PySide6.QtWidgets import QSizePolicy, QWidget
 from ui.setup_words import ms_text
 from ui.theme import SMALL_PX, Colours, colours_of
 
+_Bars = tuple[tuple[float, int], ...]
 _LABEL_PX = 18
 _COUNT_PX = 16
 _LEAST_SLOT_PX = 34
@@ -21,7 +22,7 @@ class GapHistogram(QWidget):
     def __init__(self, name: str, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self.setObjectName(name)
-        self._bars: tuple[tuple[float, int], ...] = ()
+        self._bars: _Bars | None = None
         self._trip_s = 0.0
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Expanding)
         self.show_gaps((), 0.0)
@@ -34,13 +35,15 @@ class GapHistogram(QWidget):
         """Bars can still be told apart."""
         return QSize(300, 110)
 
-    def show_gaps(self, bars: tuple[tuple[float, int], ...], trip_s: float) -> None:
+    def show_gaps(self, bars: _Bars, trip_s: float) -> None:
         """Show other counts.
 
         Args:
             bars: Upper end of each class in s, and how many.
             trip_s: The trip level that is set.
         """
+        if (bars, trip_s) == (self._bars, self._trip_s):
+            return
         self._bars, self._trip_s = bars, trip_s
         total = sum(count for _, count in bars)
         late = sum(count for end_s, count in bars if trip_s and end_s > trip_s)
@@ -63,15 +66,15 @@ class GapHistogram(QWidget):
         painter.setPen(QPen(QColor(colours.line), 1))
         painter.drawLine(area.bottomLeft(), area.bottomRight())
         if self._bars:
-            self._draw_bars(painter, area, colours)
-            self._draw_trip(painter, area, colours)
+            self._draw_bars(painter, area, self._bars, colours)
+            self._draw_trip(painter, area, self._bars, colours)
         painter.end()
 
-    def _draw_bars(self, painter: QPainter, area: QRectF, colours: Colours) -> None:
-        width = area.width() / len(self._bars)
+    def _draw_bars(self, painter: QPainter, area: QRectF, bars: _Bars, colours: Colours) -> None:
+        width = area.width() / len(bars)
         every = math.ceil(_LEAST_SLOT_PX / width)
-        highest = math.log10(1 + max(count for _, count in self._bars)) or 1.0
-        for i, (end_s, count) in enumerate(self._bars):
+        highest = math.log10(1 + max(count for _, count in bars)) or 1.0
+        for i, (end_s, count) in enumerate(bars):
             slot = QRectF(area.left() + i * width, area.top(), width, area.height())
             is_late = bool(self._trip_s) and end_s > self._trip_s
             tall = area.height() * math.log10(1 + count) / highest
@@ -86,12 +89,12 @@ class GapHistogram(QWidget):
                 below = QRectF(slot.left() - width, area.bottom() + 2, 3 * width, _LABEL_PX)
                 painter.drawText(below, Qt.AlignmentFlag.AlignCenter, f"{end_s * 1e3:.0f}")
 
-    def _draw_trip(self, painter: QPainter, area: QRectF, colours: Colours) -> None:
+    def _draw_trip(self, painter: QPainter, area: QRectF, bars: _Bars, colours: Colours) -> None:
         """Between the classes on either side of the trip level."""
         if not self._trip_s:
             return
-        n_below = sum(end_s <= self._trip_s + 1e-9 for end_s, _ in self._bars)
-        x = area.left() + n_below * area.width() / len(self._bars)
+        n_below = sum(end_s <= self._trip_s + 1e-9 for end_s, _ in bars)
+        x = area.left() + n_below * area.width() / len(bars)
         painter.setPen(QPen(QColor(colours.text), 1, Qt.PenStyle.DashLine))
         painter.drawLine(QPointF(x, 2), QPointF(x, area.bottom()))
         words = f"trip level {ms_text(self._trip_s)} "

@@ -12,6 +12,9 @@ from ui.theme import LARGE_PX, Colours, colours_of
 
 _RING_PX = 44
 _WORDS_PX = 104
+_USUAL_PX = 150
+"""Of this height and below letters and ring are as given; in a higher tile they grow with it."""
+_LARGEST = 1.8
 
 
 class PositionTile(QWidget):
@@ -62,31 +65,33 @@ class PositionTile(QWidget):
         state = None if self.view is None else self.view.state
         is_quiet = state in (None, PositionState.MISSING) and not self.is_wanted
         colour = QColor(colours.muted if is_quiet else colours.text)
-        words = QRectF(frame.right() - _WORDS_PX, frame.top(), _WORDS_PX - 4, frame.height())
+        grown = min(_LARGEST, max(1.0, self.height() / _USUAL_PX))
+        wide = _WORDS_PX * grown
+        words = QRectF(frame.right() - wide, frame.top(), wide - 4, frame.height())
         drawing = QRectF(frame.left(), frame.top(), words.left() - frame.left(), frame.height())
         self._drawing.paint(painter, drawing.adjusted(8, 8, -4, -8), colour)
-        self._draw_words(painter, words, colour)
+        self._draw_words(painter, words, colour, grown)
         if self.view is not None:
-            ring = QRectF(0, 0, _RING_PX, _RING_PX)
+            ring = QRectF(0, 0, _RING_PX * grown, _RING_PX * grown)
             ring.moveCenter(words.center())
             ring.moveBottom(words.bottom() - 10)
             paint_ring(painter, ring, self.view.state, self.view.progress, colours)
         painter.end()
 
-    def _draw_words(self, painter: QPainter, words: QRectF, colour: QColor) -> None:
+    def _draw_words(self, painter: QPainter, words: QRectF, colour: QColor, grown: float) -> None:
         font = QFont(self.font())
-        font.setPixelSize(LARGE_PX + 4)
+        font.setPixelSize(round((LARGE_PX + 4) * grown))
         font.setBold(True)
         painter.setFont(font)
         painter.setPen(colour)
-        line = QRectF(words.left(), words.top() + 6, words.width(), 26)
+        line = QRectF(words.left(), words.top() + 6, words.width(), 26 * grown)
         painter.drawText(line, Qt.AlignmentFlag.AlignCenter, position_words(self._position))
         if self.view is None:
             return
-        font.setPixelSize(LARGE_PX)
+        font.setPixelSize(round(LARGE_PX * grown))
         font.setBold(self.view.state is PositionState.HOLD_STILL)
         painter.setFont(font)
-        line.translate(0, 24)
+        line.translate(0, 24 * grown)
         painter.drawText(line, Qt.AlignmentFlag.AlignCenter, self.view.state.value)
 
     def _pen(self, colours: Colours) -> QPen:

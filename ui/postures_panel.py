@@ -27,7 +27,7 @@ class PosturesPanel(QFrame):
         framed(self)
         self._setup = setup
         self._is_on = False
-        self._sentence = BigText("posturesSentence", 22, 64)
+        self._sentence = BigText("posturesSentence", 22, 90)
         self._stop = PostureTile("stopPosture", "stop", LEFT_STOP)
         self._start = PostureTile("startPosture", "start", LEFT_START)
         self._figures = [Figure(f"postures{key}", caption, 28) for key, caption in POSTURE_FIGURES]

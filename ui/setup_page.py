@@ -3,6 +3,7 @@
 from collections.abc import Callable
 from typing import Protocol
 
+from PySide6.QtCore import Signal
 from PySide6.QtWidgets import QVBoxLayout, QWidget
 
 from gestureapp.cell.controls import CellControls
@@ -11,11 +12,6 @@ from gestureapp.sensing.values import Side
 from gestureapp.setup.controls import SetupControls
 from gestureapp.setup.values import SetupSnapshot
 from ui.pages import PageStack
-from ui.people_step import PeopleStep
-from ui.robot_step import RobotStep
-from ui.settings_step import SettingsStep
-from ui.setup_calibrate_step import CalibrateStep
-from ui.setup_sensors_step import SetupSensorsStep
 from ui.setup_words import SetupStep, setup_states
 from ui.step_bar import StepBar
 
@@ -40,6 +36,8 @@ class SetupPage(QWidget):
         step: The one in sight.
         notice: What has to be said across the window: why nothing here works.
     """
+
+    _wanted_side = Signal(Side)
 
     def __init__(
         self, cell: CellControls, setup: SetupControls, parent: QWidget | None = None
@@ -107,32 +105,43 @@ class SetupPage(QWidget):
             SetupStep.PEOPLE: self._build_people,
         }
 
+    # A step's modules are imported with it: together they would hold the start up.
+
     def _build_sensors(self) -> None:
+        from ui.setup_sensors_step import SetupSensorsStep
+
         sensors = SetupSensorsStep(self._cell, self._setup)
         sensors.calibration_wanted.connect(self._calibrate)
         self._keep(SetupStep.SENSORS, sensors, sensors)
 
     def _build_calibrate(self) -> None:
+        from ui.setup_calibrate_step import CalibrateStep
+
         calibrate = CalibrateStep(self._setup)
+        self._wanted_side.connect(calibrate.choose_side)
         self._keep(SetupStep.CALIBRATE, calibrate, calibrate)
 
     def _build_robot(self) -> None:
+        from ui.robot_step import RobotStep
+
         robot = RobotStep(self._setup)
         self._keep(SetupStep.ROBOT, robot, robot)
 
     def _build_settings(self) -> None:
+        from ui.settings_step import SettingsStep
+
         settings = SettingsStep(self._setup)
         self._keep(SetupStep.SETTINGS, settings, settings)
 
     def _build_people(self) -> None:
+        from ui.people_step import PeopleStep
+
         people = PeopleStep(self._setup)
         self._keep(SetupStep.PEOPLE, people, people)
 
     def _calibrate(self, side: Side) -> None:
         self.go_to(SetupStep.CALIBRATE)
-        _, step = self._built[SetupStep.CALIBRATE]
-        if isinstance(step, CalibrateStep):
-            step.choose_side(side)
+        self._wanted_side.emit(side)
 
     def _keep(self, step: SetupStep, widget: QWidget, built: StepWidget) -> None:
         self._built[step] = (widget, built)

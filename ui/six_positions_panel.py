@@ -36,7 +36,7 @@ class SixPositionsPanel(QFrame):
         self.side = Side.LEFT
         self._setup = setup
         self._is_on = False
-        self._sentence = BigText("calibrateSentence", 20, 54)
+        self._sentence = BigText("calibrateSentence", 20, 80)
         self._tiles = {position: PositionTile(position) for position in Position}
         self._figures = [Figure(f"calibrate{key}", caption, 20) for key, caption in RESIDUALS]
         self._outcome = OutcomeLine("calibrateOutcome", LARGE_PX)
