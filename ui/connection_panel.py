@@ -15,6 +15,7 @@ from PySide6.QtWidgets import (
 
 from gestureapp.setup.controls import SetupControls
 from gestureapp.setup.values import Check, Outcome, RobotCard, RobotRow, SettingRow
+from ui.background import Background
 from ui.draft_bar import heading
 from ui.labels import plain
 from ui.marks import Level, Mark
@@ -39,6 +40,8 @@ class ConnectionPanel(QWidget):
         super().__init__(parent)
         self.setObjectName("connectionPanel")
         self._controls = controls
+        self._background = Background("robot's address", self)
+        self._background.on_error(self._tell)
         self._shown: tuple[str, str] | None = None
         self._host = _line("robotHost", "Address of the controller", 200)
         self._port = _line("robotPort", "TCP port of the controller", 80)
@@ -87,7 +90,8 @@ class ConnectionPanel(QWidget):
         if not port.isdecimal():
             self._tell(f"{port!r} is no port; enter a whole number")
             return
-        self._tell(self._controls.choose_robot(self._host.text().strip(), int(port)))
+        host, choose = self._host.text().strip(), self._controls.choose_robot
+        self._background.run(lambda: choose(host, int(port)), self._tell)
 
     def _tell(self, text: str) -> None:
         self._trouble.setText(text)
@@ -148,7 +152,7 @@ class _Row:
         """Show what was asked and what came of it."""
         self.setVisible(True)
         self._mark.show_level(_LEVELS[row.outcome.check])
-        _say(self._name, row.name)
+        _say(self._name, f"{row.name[:1].upper()}{row.name[1:]}")
         is_failed = row.outcome.check is Check.FAILED
         _say(self._word, "failed because" if is_failed else row.outcome.check.value)
         _say(self._text, row.outcome.text)

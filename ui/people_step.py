@@ -64,9 +64,10 @@ class PeopleStep(QWidget):
 
     def show_snapshot(self, setup: SetupSnapshot, cell: Snapshot) -> None:
         """Show another moment of setting up and of the cell."""
-        if self._folk is None or setup.t_s >= self._next_s:
-            self.refresh()
+        if setup.t_s >= self._next_s:  # what was clicked and not taken is taken back
+            self._folk = None
             self._next_s = setup.t_s + REFRESH_S
+        self.refresh()
         chosen = next((row for row in self._folk or () if row.is_chosen), None)
         level, text = in_use_text(chosen, cell)
         self._mark.show_level(level)
@@ -97,7 +98,7 @@ class PeopleStep(QWidget):
     def showEvent(self, event: QShowEvent) -> None:
         """Somebody may have come in the meantime."""
         super().showEvent(event)
-        self._next_s = 0.0
+        self._folk = None
 
     def _add_new(self) -> None:
         name = " ".join(self._name.text().split())

@@ -66,19 +66,19 @@ def made(room, start: str) -> list[str]:
     return [call for call in room.setup.calls if call.startswith(start)]
 
 
-def test_connecting_asks_for_the_address_typed(room):
+def test_connecting_asks_for_the_address_typed(qtbot, room):
     enter(room, "robotHost", "192.168.1.31")
     enter(room, "robotPort", "8080")
     room.press("connectRobot")
-    assert room.setup.calls == ["choose_robot 192.168.1.31 8080"]
+    qtbot.waitUntil(lambda: room.setup.calls == ["choose_robot 192.168.1.31 8080"], timeout=5000)
     assert room.text("robotTrouble") == ""
 
 
-def test_a_wrong_address_is_refused_in_words(room):
+def test_a_wrong_address_is_refused_in_words(qtbot, room):
     room.setup.answer = "'nx100' is no address; give the controller's IP address"
     enter(room, "robotHost", "nx100")
     QTest.keyClick(field(room, "robotHost"), Qt.Key.Key_Return)
-    assert room.text("robotTrouble") == room.setup.answer
+    qtbot.waitUntil(lambda: room.text("robotTrouble") == room.setup.answer, timeout=5000)
 
 
 def test_a_port_that_is_no_number_is_not_asked_for(room):
