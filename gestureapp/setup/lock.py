@@ -30,7 +30,7 @@ _DAMAGED: Final = "The PIN in {where} cannot be read: take [lock] out of that fi
 
 _KIND: Final = "scrypt"
 _COST, _BLOCK, _PARALLEL = 2**14, 8, 1
-"""Some 50 ms and 16 MB a try (RFC 7914 and ``hashlib.scrypt``)."""
+"""Some 50 ms and 16 MB a try (RFC 7914); a PIN of few digits is found by trying all the same."""
 _SALT_BYTES: Final = 16
 _HASH_BYTES: Final = 32
 
@@ -134,6 +134,10 @@ class Lock:
         """Lock; without a PIN nothing is ever locked."""
         self._open_until_s, self._said = -math.inf, ""
 
+    def say(self, text: str) -> None:
+        """What else has to be told where the PIN is asked for, until the next try."""
+        self._said = text
+
     def change(self, pin_hash: str, where: str = "") -> None:
         """There is another PIN now, or none; who set it need not give it at once."""
         was_open = self.is_open
@@ -144,12 +148,13 @@ class Lock:
     def _text(self) -> str:
         now_s = self._clock()
         if not self._hash:
-            return NO_PIN
+            return f"{self._said} {NO_PIN}".lstrip()
         if not is_readable(self._hash):
             return _DAMAGED.format(where=self._where or "the settings file")
         if self.is_open:
             left_min = math.ceil((self._open_until_s - now_s) / 60)
-            return f"Open for {left_min} more minute{'s' if left_min > 1 else ''}. {WHAT_FOR}"
+            until = f"Open for {left_min} more minute{'s' if left_min > 1 else ''}."
+            return f"{self._said} {until} {WHAT_FOR}".lstrip()
         if now_s < self._wait_until_s:
             left_s = math.ceil(self._wait_until_s - now_s)
             return f"{self._said} Try again in {left_s} s."

@@ -50,14 +50,14 @@ class _Trial:
 
 
 class SettingsDesk:
-    """The settings of a running cell. Any thread; a change may take some 50 ms of disk.
+    """The settings of a running cell. Any thread; a change takes some 10 ms.
 
     Args:
         files: The site's file, then the user's, which is the one written to; none in a demo, whose
             changes hold for this run only.
         named: The file named on the command line; what it sets cannot be changed here.
         settings: As the cell was started with them. What differs from the files was given at the
-            start by something else, and cannot be changed here either.
+            start by something else, and cannot be changed here either; a demo's can.
         use: Makes the cell use changed settings once nothing may move.
         check: Raises ConfigError when the cell could not use them as a whole.
         tell: Puts a line among the events of the session.
@@ -85,6 +85,7 @@ class SettingsDesk:
         self._named, self._use, self._check, self._tell = named, use, check, tell
         self._wall_clock = wall_clock
         self._mutex = threading.Lock()
+        self._contents = self._all_contents()
         self._layers = self._read()
         self._used = settings
         pin = self._layers.pin
@@ -132,10 +133,16 @@ class SettingsDesk:
             except ConfigError as error:
                 return dict.fromkeys(changes, _in_words(error))
             before, self._layers, self._used = self._used, trial.layers, trial.settings
+            self._contents = self._all_contents()
             self._rows = self._drawn()
-        for line in _told(before, self._used):
-            self._tell(line)
-        self._use(self._used)
+            for line in _told(before, self._used):
+                self._tell(line)
+            # Under the mutex: what was written last is also what is used last.
+            try:
+                self._use(self._used)
+            except ConfigError as error:
+                why = f"written, but used from the next start on only: {error.reason}"
+                return dict.fromkeys(changes, why)
         return {}
 
     def look_again(self) -> None:
@@ -147,7 +154,7 @@ class SettingsDesk:
             self._refreshed()
 
     def open_lock(self, pin: str) -> None:
-        """Give the PIN; settings that bear on motion can be changed for ten minutes."""
+        """Give the PIN, which takes some 50 ms; what bears on motion can be changed then."""
         self._lock.open(pin)
 
     def close_lock(self) -> None:
@@ -157,23 +164,29 @@ class SettingsDesk:
     def set_pin(self, pin: str) -> str:
         """Set the PIN, or take it away with an empty one; only while open.
 
-        It goes into the site's file where that can be written, else into the user's.
+        It goes into the site's file where that can be written, else into the user's. Takes some
+        50 ms.
 
         Returns:
             Why not, or empty.
         """
-        if not self._lock.is_open:
-            return "Give the PIN that is set first."
-        if pin and (wrong := why_no_pin(pin)):
+        if wrong := self.why_not_pin(pin):
             return wrong
+        pin_hash = hash_pin(pin) if pin else ""
         with self._mutex:
-            pin_hash = hash_pin(pin) if pin else ""
             if wrong := self._keep_pin(pin_hash or None):
+                self._lock.say(wrong)
                 return wrong
-            self._layers = self._read()
+            self._contents, self._layers = self._all_contents(), self._read()
             self._lock.change(pin_hash, str(self._layers.pin.origin))
         self._tell(f"settings: PIN {'set' if pin else 'taken away'} by the window")
         return ""
+
+    def why_not_pin(self, pin: str) -> str:
+        """Why ``set_pin`` would not try to keep this one, told at once; empty when it would."""
+        if not self._lock.is_open:
+            return "Give the PIN that is set first."
+        return why_no_pin(pin) if pin else ""
 
     def _keep_pin(self, pin_hash: str | None) -> str:
         there = self._layers.pin.origin.file
@@ -267,6 +280,9 @@ class SettingsDesk:
     def _refreshed(self, is_quiet: bool = True) -> list[str]:
         """Read the files again; what bears on motion and is not as it was read before."""
         try:
+            contents = self._all_contents()
+            if contents == self._contents:
+                return []
             now = self._read()
         except ConfigError:
             if is_quiet:
@@ -276,9 +292,14 @@ class SettingsDesk:
         strange = [n for n in after if after[n] != before[n] and bears_on_motion(n)]
         if not strange:
             self._used = _changed(self._used, self._layers.settings, now.settings)
-            self._layers = now
+            self._layers, self._contents = now, contents
             self._rows = self._drawn()
         return strange
+
+    def _all_contents(self) -> tuple[bytes | None, ...]:
+        """Of every file: what is the same need not be read into settings again."""
+        named = () if self._named is None else (bytes_if_there(self._named),)
+        return (*(self._content(file) for file in self._files), *named)
 
     def _read(self, instead: Mapping[Path, bytes] | None = None) -> SettingsLayers:
         def content(file: Path) -> bytes | None:
@@ -306,7 +327,7 @@ class SettingsDesk:
         key = name.partition(".")[2]
         origin = self._layers.origins[name]
         fixed = ""
-        if is_given:
+        if is_given and not self._memory:
             fixed = "given when the application was started; it cannot be changed here"
         elif origin.is_named:
             fixed = f"set by {origin}; change it there"

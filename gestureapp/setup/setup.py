@@ -179,15 +179,20 @@ class Setup:
 
     def open_lock(self, pin: str) -> None:
         """Give the PIN: settings that bear on motion can be changed for ten minutes."""
-        self._settings.open_lock(pin)
+        self._wishes.put(lambda desk: self._settings.open_lock(pin))
 
     def close_lock(self) -> None:
         """Lock them again."""
         self._settings.close_lock()
 
     def set_pin(self, pin: str) -> str:
-        """Set the PIN, or take it away with an empty one. Returns why not, or empty."""
-        return self._settings.set_pin(pin)
+        """Set the PIN, or take it away with an empty one. Returns why not, or empty.
+
+        What the disk says against it stands in the picture's ``lock``.
+        """
+        if not (why_not := self._settings.why_not_pin(pin)):
+            self._wishes.put(lambda desk: self._pin_set(pin))
+        return why_not
 
     # People.
 
@@ -210,6 +215,9 @@ class Setup:
         return why_not
 
     # The thread.
+
+    def _pin_set(self, pin: str) -> None:
+        self._settings.set_pin(pin)
 
     def _run(self, stopping: threading.Event) -> None:
         desk = self._desk

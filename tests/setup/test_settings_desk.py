@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from gestureapp.config import DriveMode, RobotSettings, Settings
+from gestureapp.config import DriveMode, RobotSettings, SensorSettings, Settings
 from gestureapp.errors import ConfigError
 from gestureapp.running import describe
 from gestureapp.settings_check import named_values
@@ -165,16 +165,34 @@ def test_a_narrower_limit_that_the_named_file_then_exceeds_is_refused(bench: Ben
 
 
 def test_a_demo_changes_settings_for_this_run_only(bench: Bench):
-    emulated = replace(Settings(), robot=RobotSettings(host="127.0.0.1", port=4711))
+    at = RobotSettings(host="127.0.0.1", port=4711)
+    emulated = replace(Settings(), left=SensorSettings("socket://a"), robot=at, is_simulation=True)
     desk = SettingsDesk([], None, emulated, bench.cell.used.append)
-    assert "given when" in row(desk, "robot.host").fixed
+    assert (row(desk, "left.port").origin, row(desk, "left.port").fixed) == (
+        "given at the start",
+        "",
+    )
+    assert "is not this machine" in desk.change_settings({"robot.host": "10.0.0.9"})["robot.host"]
     assert desk.change_settings({"robot.speed_mm_s": 50.0, "site.gui_limit_s": 0.3}) == {}
-    assert bench.cell.used[-1].robot == RobotSettings(host="127.0.0.1", port=4711, speed_mm_s=50.0)
+    assert bench.cell.used[-1].robot == replace(at, speed_mm_s=50.0)
+    assert desk.change_settings({"left.port": "socket://b"}) == {}
+    assert desk.change_settings({"left.port": "socket://a"}) == {}
+    assert [used.left.port[-1] for used in bench.cell.used] == ["a", "b", "a"]
     assert row(desk, "robot.speed_mm_s").origin.startswith("this run only")
     assert "is wider" in desk.change_settings({"robot.speed_mm_s": 120.0})["robot.speed_mm_s"]
     assert desk.set_pin("1234") == ""
     desk.close_lock()
     assert desk.change_settings({"robot.speed_mm_s": 40.0}) == {"robot.speed_mm_s": LOCKED}
+
+
+def test_what_was_given_at_the_start_beside_the_files_stays(bench: Bench):
+    given = replace(Settings(), robot=RobotSettings(tool=3))
+    desk = SettingsDesk([bench.site, bench.user], None, given, bench.cell.used.append)
+    tool = row(desk, "robot.tool")
+    assert (tool.value, tool.origin) == (3, "given at the start")
+    assert desk.change_settings({"robot.tool": 4}) == {"robot.tool": tool.fixed}
+    assert desk.change_settings({"robot.speed_mm_s": 50.0}) == {}
+    assert bench.cell.used[-1].robot == RobotSettings(tool=3, speed_mm_s=50.0)
 
 
 def test_a_cell_that_cannot_use_them_has_the_last_word(bench: Bench):
@@ -267,6 +285,16 @@ def test_where_the_site_cannot_be_written_the_users_file_has_the_pin(bench: Benc
     desk = SettingsDesk(files, None, Settings(), bench.cell.used.append)
     assert desk.set_pin("1234") == ""
     assert "pin_hash" in bench.user.read_text()
+
+
+def test_a_pin_that_cannot_be_kept_is_told_and_not_set(bench: Bench):
+    for folder in (bench.site.parent, bench.user.parent):
+        folder.rmdir()
+        folder.write_text("no folder")
+    desk = SettingsDesk([bench.site, bench.user], None, Settings(), bench.cell.used.append)
+    assert "cannot be" in desk.set_pin("1234")
+    assert not desk.lock.has_pin
+    assert desk.lock.text.startswith(str(bench.user))
 
 
 def test_the_hash_is_shown_and_recorded_nowhere(bench: Bench):
