@@ -7,10 +7,10 @@ from enum import Enum
 from pathlib import Path
 from typing import Final
 
-from gestureapp.recognition.fields import number_in, object_in, text_in
+from gestureapp.recognition.fields import object_in, text_in
 from gestureapp.recording.kept_json import read_kept, write_kept
 from gestureapp.recording.people import make_person_folder, person_folder
-from gestureapp.recording.sensor_records import vector_in
+from gestureapp.recording.sensor_records import vector_in, wall_s_in
 from gestureapp.sensing.posture import LeftPostures
 
 PROFILE_FILE: Final = "profile.json"
@@ -89,4 +89,4 @@ def _profile_in(content: Mapping[str, object]) -> PersonProfile:
         for vector in (postures.stop, postures.start):
             if abs(math.hypot(*vector) - 1.0) > _UNIT_WITHIN:
                 raise ValueError("a posture is no direction")
-    return PersonProfile(Handedness(handedness), postures, number_in(content, "recorded_wall_s"))
+    return PersonProfile(Handedness(handedness), postures, wall_s_in(content, "recorded_wall_s"))

@@ -27,6 +27,9 @@ AHEAD_S: Final = 60.0
 _LARGEST: Final = 10.0
 """No entry of a calibration that was ever kept is larger; see ``six_positions`` for its limits."""
 
+_LAST_WALL_S: Final = 253_402_300_799.0
+"""The end of the year 9999: what lies beyond is no date."""
+
 _CALIBRATE: Final = "calibrate it: Setup, Calibrate, six positions"
 _LEVEL: Final = "lay it on something level and check it: Setup, Calibrate, Level check"
 
@@ -180,7 +183,7 @@ def _record_in(content: Mapping[str, object]) -> SensorRecord:
     return SensorRecord(
         sensor_id=text_in(content, "sensor_id"),
         calibration=_calibration_in(content, "calibration"),
-        calibrated_wall_s=number_in(content, "calibrated_wall_s"),
+        calibrated_wall_s=wall_s_in(content, "calibrated_wall_s"),
         before_mg=number_in(content, "before_mg"),
         after_mg=number_in(content, "after_mg"),
         worst_mg=number_in(content, "worst_mg"),
@@ -195,7 +198,7 @@ def _level_in(content: Mapping[str, object]) -> LevelRecord:
     if not isinstance(is_level, bool):
         raise ValueError("'is_level' must be true or false")
     return LevelRecord(
-        wall_s=number_in(content, "wall_s"),
+        wall_s=wall_s_in(content, "wall_s"),
         is_level=is_level,
         off_deg=number_in(content, "off_deg"),
         off_mg=number_in(content, "off_mg"),
@@ -205,7 +208,7 @@ def _level_in(content: Mapping[str, object]) -> LevelRecord:
 
 def _link_in(content: Mapping[str, object]) -> LinkRecord:
     return LinkRecord(
-        wall_s=number_in(content, "wall_s"),
+        wall_s=wall_s_in(content, "wall_s"),
         rate_hz=number_in(content, "rate_hz"),
         jitter_s=number_in(content, "jitter_s"),
         worst_gap_s=number_in(content, "worst_gap_s"),
@@ -224,6 +227,14 @@ def _calibration_in(content: Mapping[str, object], name: str) -> Calibration:
     rows = [vector_in({"row": list(row)}, "row") for row in matrix.tolist()]
     found: Matrix = (rows[0], rows[1], rows[2])
     return Calibration(offset_g, found)
+
+
+def wall_s_in(content: Mapping[str, object], name: str) -> float:
+    """The date under this name, seconds since the epoch; ``ValueError`` when it is none."""
+    wall_s = number_in(content, name)
+    if not 0.0 <= wall_s <= _LAST_WALL_S:
+        raise ValueError(f"'{name}' is no date")
+    return wall_s
 
 
 def vector_in(content: Mapping[str, object], name: str) -> Vector:

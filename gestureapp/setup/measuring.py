@@ -27,6 +27,7 @@ from gestureapp.setup.values import (
     ShakeView,
 )
 
+ANOTHER: Final = "Another sensor answers there now; nothing is kept. Begin anew."
 SETTLED_S: Final = 0.1
 """Samples that the reader had corrected before another calibration are through by then."""
 
@@ -59,6 +60,7 @@ class Measuring:
         self._level: LevelCheck | None = None
         self._postures: PostureRecorder | None = None
         self._ports: dict[Side, str] = {}
+        self._who = ""
         self.shake, self.link_test = ShakeView(), LinkTestView()
         self.calibration, self.level, self.postures = CalibrationView(), LevelView(), PosturesView()
 
@@ -120,6 +122,7 @@ class Measuring:
         """Ask for the six positions; until the end the samples come as the protocol gives them."""
         self.end()
         self._positions = SixPositions(side)
+        self._who = self._arms[side].known.id
         self._arms[side].raw = NOMINAL
         self._feeds[side].skip_until(now_s + SETTLED_S)
         self.calibration = self._positions.view
@@ -142,7 +145,7 @@ class Measuring:
             text = "Not calibrated: take the six positions first."
             self.level = LevelView(side=side, outcome=Outcome(Check.FAILED, text))
             return
-        self._level = LevelCheck(side, arm.record)
+        self._level, self._who = LevelCheck(side, arm.record), arm.known.id
         self.level = self._level.view
 
     def begin_postures(self, person: str) -> None:
@@ -153,6 +156,7 @@ class Measuring:
             self.postures = PosturesView(sentence=text, outcome=Outcome(Check.FAILED, text))
             return
         self._postures = PostureRecorder(person, self._cell.settings.site)
+        self._who = self._arms[Side.LEFT].known.id
         self.postures = self._postures.view
 
     def end_postures(self) -> None:
@@ -202,6 +206,12 @@ class Measuring:
         positions, side = self._positions, self.calibration.side
         if positions is None or side is None:
             return
+        if self._is_another(side):
+            self.end_calibration()
+            self.calibration = replace(
+                self.calibration, sentence=ANOTHER, outcome=Outcome(Check.FAILED, ANOTHER, wall_s)
+            )
+            return
         positions.step(now_s, rows[side])
         self.calibration = positions.view
         if positions.view.is_on:
@@ -218,6 +228,10 @@ class Measuring:
         level, side = self._level, self.level.side
         if level is None or side is None:
             return
+        if self._is_another(side):
+            self._level = None
+            self.level = replace(self.level, outcome=Outcome(Check.FAILED, ANOTHER, wall_s))
+            return
         level.step(now_s, rows[side])
         self.level = level.view
         if level.is_on:
@@ -232,6 +246,11 @@ class Measuring:
         recorder = self._postures
         if recorder is None:
             return
+        if self._is_another(Side.LEFT):
+            self._postures = None
+            outcome = Outcome(Check.FAILED, ANOTHER, wall_s)
+            self.postures = replace(self.postures, is_on=False, sentence=ANOTHER, outcome=outcome)
+            return
         recorder.step(now_s, rows[Side.LEFT])
         self.postures = recorder.view
         if recorder.view.is_on:
@@ -242,6 +261,10 @@ class Measuring:
             outcome = self._kept(outcome, lambda: self._keep_postures(recorder, wall_s))
         self.postures = replace(recorder.view, outcome=outcome, wall_s=wall_s)
         self._on_postures()
+
+    def _is_another(self, side: Side) -> bool:
+        """What has been measured so far was measured of another sensor."""
+        return self._arms[side].known.id != self._who
 
     def _keep_postures(self, recorder: PostureRecorder, wall_s: float) -> None:
         person = recorder.view.person

@@ -177,6 +177,8 @@ def test_a_folder_that_cannot_be_made_is_told(tmp_path):
         ("calibration", {"offset_g": [0, 0, 1e9], "matrix": MATRIX}),
         ("calibration", {"offset_g": [0, 0, float("nan")], "matrix": MATRIX}),
         ("calibrated_wall_s", "yesterday"),
+        ("calibrated_wall_s", -1.0),
+        ("calibrated_wall_s", 1e18),
         ("level", {"is_level": 1}),
         ("level", []),
         ("link", {"n_lost": -1}),
