@@ -182,6 +182,7 @@ def _add_fault_subject(commands: "argparse._SubParsersAction[argparse.ArgumentPa
 def _application(options: argparse.Namespace, open_window: "OpenWindow | None") -> int:
     assert open_window is not None
     from gestureapp.running import data_folder, running_cell, settings_files
+    from gestureapp.sensing.protocols import plug_in_findings
     from gestureapp.settings_file import load_settings
     from gestureapp.simulation.demo import DemoOptions
 
@@ -191,13 +192,15 @@ def _application(options: argparse.Namespace, open_window: "OpenWindow | None") 
     # A demo is the same everywhere: the files of site and user are for the real cell.
     files = [] if options.demo else settings_files()
     settings, findings = load_settings(files, options.config)
-    for finding in findings:
-        sys.stderr.write(f"gestureapp: {finding}\n")
+    # Plug-ins are imported here, before there is a window that they could block.
+    told = [*map(str, findings), *plug_in_findings()]
+    for line in told:
+        sys.stderr.write(f"gestureapp: {line}\n")
     demo = DemoOptions() if options.demo else None
     folder = data_folder(options.data_dir)
     with running_cell(settings, folder, demo, files, options.config) as running:
-        for finding in findings:
-            running.cell.tell(str(finding))
+        for line in told:
+            running.cell.tell(line)
         return open_window(running, options.exit_after)
 
 

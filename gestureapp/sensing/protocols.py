@@ -102,5 +102,5 @@ def _known() -> tuple[tuple[Protocol, ...], tuple[str, ...]]:
 
     added, findings = installed_plug_ins({known.name for known in BUILT_IN})
     for finding in findings:
-        log.warning("%s", finding)
+        log.info("%s", finding)  # the command line says it aloud
     return (*BUILT_IN, *added), findings

@@ -1,6 +1,7 @@
 """Every built-in protocol, from an emulated sensor over a socket to the health of its stream."""
 
 import itertools
+import os
 import queue
 import subprocess
 import sys
@@ -13,9 +14,19 @@ from gestureapp.config import SensorSettings
 from gestureapp.sensing.protocols import BUILT_IN
 from gestureapp.sensing.reader import SensorReader
 from gestureapp.sensing.stream import StreamTracker
-from gestureapp.sensing.values import Sample, SensorEvent, Side, StreamHealth
+from gestureapp.sensing.values import (
+    Connected,
+    CounterGap,
+    Garbage,
+    Sample,
+    SensorEvent,
+    Side,
+    StreamHealth,
+)
 from gestureapp.simulation.sensor import SensorEmulator, SensorOptions
 from gestureapp.simulation.sensor_radio import BLUETOOTH, RadioOptions
+from gestureapp.simulation.sensor_wire import ENCODERS
+from tests.sensing.test_reader import Bench, posix_only
 
 LIMIT_S = 20.0
 NAMES = [known.name for known in BUILT_IN]
@@ -81,6 +92,22 @@ def test_over_a_radio_every_protocol_shows_its_bursts_as_jitter(name: str):
     assert health.n_bad == 0
     assert health.jitter_s > 0.01
     assert health.worst_gap_s > 0.019
+
+
+@posix_only
+@pytest.mark.parametrize(("name", "count_g"), [("witmotion", 16 / 32768), ("binary", 0.0005)])
+def test_every_byte_there_is_gets_through_a_serial_device(name: str, count_g: float):
+    """Line ends, flow control and the end of a file are bytes like others."""
+    master, slave = os.openpty()
+    sent_g = [(n * count_g, -n * count_g, 1.0) for n in range(256)]
+    with Bench(os.ttyname(slave), name) as bench:
+        bench.next(Connected)
+        for n, accel_g in enumerate(sent_g):
+            os.write(master, ENCODERS[name](n, accel_g))
+        told = [bench.next(Sample | Garbage | CounterGap) for _ in sent_g]
+    os.close(master)
+    os.close(slave)
+    assert [sample.accel_g for sample in told] == [pytest.approx(g, abs=1e-9) for g in sent_g]
 
 
 @pytest.fixture

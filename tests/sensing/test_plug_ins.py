@@ -7,13 +7,16 @@ from pathlib import Path
 
 import pytest
 
+from gestureapp import cli
 from gestureapp.errors import ConfigError
+from gestureapp.running import RunningCell
 from gestureapp.sensing import protocols as protocols_module
 from gestureapp.sensing.calibration import NOMINAL, accel_of
 from gestureapp.sensing.decoder import LineDecoder
 from gestureapp.sensing.plug_ins import GROUP, load_plug_ins
 from gestureapp.sensing.protocols import BUILT_IN, Protocol, plug_in_findings, protocol, protocols
 from gestureapp.sensing.values import CounterGap, Frame, Garbage, Impossible
+from tests.cell.conftest import wait_until
 from tests.sensing.test_reader import Bench, script
 
 EXAMPLE = Path(__file__).parents[2] / "docs" / "examples" / "protocol_plug_in"
@@ -77,6 +80,7 @@ def test_a_plug_in_that_cannot_be_imported_is_one_line_and_the_others_stay(
 ):
     install("broken", {"morse": "broken_protocol:PROTOCOL"}, "import no_such_module_at_all\n")
     install_example(install)
+    caplog.set_level("INFO")
     assert "milli-g" in [known.name for known in protocols()]
     (finding,) = plug_in_findings()
     assert finding == (
@@ -84,6 +88,27 @@ def test_a_plug_in_that_cannot_be_imported_is_one_line_and_the_others_stay(
         "ModuleNotFoundError: No module named 'no_such_module_at_all'; mend or remove the package"
     )
     assert finding in [record.getMessage() for record in caplog.records]
+
+
+def test_the_application_says_once_what_is_wrong_with_a_plug_in_and_starts(
+    install: Install, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+):
+    install("broken", {"morse": "broken_protocol:PROTOCOL"}, "1 / 0\n")
+    told: list[str] = []
+
+    def open_window(running: RunningCell, _: float | None) -> int:
+        assert wait_until(lambda: lines(running))
+        told.extend(lines(running))
+        return 0
+
+    def lines(running: RunningCell) -> list[str]:
+        events = running.cell.snapshot().events
+        return [event.text for event in events if event.text.startswith(line)]
+
+    line = "protocol plug-in 'morse' of broken (broken_protocol:PROTOCOL) is not used: it fails"
+    assert cli.main(["--data-dir", str(tmp_path / "data")], open_window) == 0
+    assert len(told) == 1
+    assert capsys.readouterr().err.count(line) == 1
 
 
 def test_plug_ins_are_loaded_once_and_not_for_what_is_built_in(install: Install):
