@@ -26,11 +26,13 @@ from gestureapp.cell.inputs import (
     SetupInput,
 )
 from gestureapp.cell.limits import field_of
-from gestureapp.cell.machine import MachineState, Rules, step
+from gestureapp.cell.machine import step
+from gestureapp.cell.machine_state import MachineState, rules_of
 from gestureapp.cell.readiness import Facts, find_blockers
 from gestureapp.cell.records import Record, Recorder, Topic, fields_of
 from gestureapp.cell.robot_memory import RobotMemory, direction_of, events_of, robot_fields
 from gestureapp.cell.snapshot import Blocker, CellState, RecordingView, Snapshot
+from gestureapp.cell.stop_test import TEST_CAPS, StopTests
 from gestureapp.cell.story import Story
 from gestureapp.cell.words import sentence
 from gestureapp.clock import Clock
@@ -79,12 +81,12 @@ class Control:
         self.adjusted = Adjustments(settings, readers, record)
         self._ear = Ear(model, record)
         self._gui_seen_s, self._record, self._clock = gui_seen_s, record, clock
-        self._field, self._rules = field_of(settings), _rules_of(settings)
+        self._field, self._rules = field_of(settings), rules_of(settings)
         self._inbox: queue.SimpleQueue[Input] = queue.SimpleQueue()
         self._arms = Arms(settings.site)
         self._robot = RobotMemory(settings.robot)
         self._guardian = GuardianKeeper(lambda: start_guardian(self.adjusted.settings))
-        self._story = Story(record, wall_clock)
+        self._story, self._stop_tests = Story(record, wall_clock), StopTests(wall_clock)
         self._judged_s = float("-inf")
         self._now_s = self._ticked_s = clock()
         self.n_overruns = 0
@@ -212,7 +214,7 @@ class Control:
         if self.state.posture is not ArmPosture.NEITHER:
             self._step(e.LeftPosture(self._now_s, ArmPosture.NEITHER))
         if taken.is_guardian_concerned:
-            self._field, self._rules = field_of(settings), _rules_of(settings)
+            self._field, self._rules = field_of(settings), rules_of(settings)
             self._robot = RobotMemory(settings.robot)
             self._guardian.renew()
             self._say(e.Say("other settings are in use"))
@@ -245,6 +247,7 @@ class Control:
     def _guardian_said(self, message: m.FromGuardian) -> None:
         self._guardian.heard()
         self._robot.note(message)
+        self._stop_tests.guardian_said(message, self.state)
         if isinstance(message, m.StatusReport | m.PoseReport):
             self._record(Record(Topic.ROBOT, message.t_s, robot_fields(message)))
         elif not isinstance(message, m.Alive):
@@ -287,6 +290,7 @@ class Control:
     def _step(self, event: e.Event) -> None:
         before = self.state
         self.state, effects = step(before, event, self._rules)
+        self._stop_tests.stepped(event, before, self.state)
         if not isinstance(event, e.Ticked) or self.state != before:
             self._record(Record(Topic.INPUT, event.t_s, fields_of(event)))
         for effect in effects:
@@ -316,7 +320,8 @@ class Control:
                 self._ear.cancel()
             case e.SendProposal():
                 direction = self._direction_of(effect.label)
-                self._send(m.Propose(effect.activation_id, direction, effect.t_s))
+                caps = TEST_CAPS if effect.is_test else None
+                self._send(m.Propose(effect.activation_id, direction, effect.t_s, caps))
             case e.SendStop():
                 self._send(m.Stop(effect.reason, effect.text, self._now_s))
             case e.SendArm():
@@ -387,12 +392,8 @@ class Control:
             recording=RecordingView(),
             person=model.person or settings.person.name,
             model=model.words,
+            stop_test=self._stop_tests.result,
         )
-
-
-def _rules_of(settings: Settings) -> Rules:
-    site = settings.site
-    return Rules(site.drive_mode, site.stop_on_right_lost, bool(settings.robot.host))
 
 
 def _shown(s: MachineState) -> tuple[CellState, str, bool]:

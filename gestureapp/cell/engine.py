@@ -146,10 +146,10 @@ class Cell:
 
     def stop(self, why: str = e.STOP_WORDS) -> None:
         """STOP: first straight to the guardian, then to the cell's own knowledge."""
-        link = self._link
+        link, pressed_s = self._link, self._clock()
         if link is not None and self.settings.robot.host:
             link.stop_now(why)
-        self._control.put(e.StopPressed(self._clock(), why))
+        self._control.put(e.StopPressed(pressed_s, why))
 
     def servo_on(self) -> None:
         """The operator asks for servo power."""
@@ -194,9 +194,11 @@ class Cell:
 
     def begin_stop_test(self, label: str) -> None:
         """Arm, then move at most 20 mm slowly this way, to be stopped with STOP."""
+        self._control.put(e.StopTestPressed(self._clock(), label))
 
     def release_stop_test(self) -> None:
         """The button was let go: a stop test under way is stopped, not measured."""
+        self._control.put(e.StopTestReleased(self._clock()))
 
     def tell(self, text: str) -> None:
         """One line for the cell's story, no alarm."""

@@ -62,6 +62,21 @@ class StopPressed:
 
 
 @dataclass(frozen=True, slots=True)
+class StopTestPressed:
+    """The operator holds the stop test's button: arm, then one short and slow increment."""
+
+    t_s: float
+    label: str
+
+
+@dataclass(frozen=True, slots=True)
+class StopTestReleased:
+    """The operator has let it go."""
+
+    t_s: float
+
+
+@dataclass(frozen=True, slots=True)
 class Decided:
     """The recogniser has answered; ``label`` is None for "not recognised"."""
 
@@ -170,7 +185,7 @@ class Stalled:
 Event = (
     Ticked | LeftPosture | StreamLost | ArmPressed | DisarmPressed | StopPressed | Decided
     | ArmTaken | ArmDenied | PermissionLost | MoveAccepted | MoveRefused | MoveEnded | StopTaken |
-    StopDone | StopOpen | GuardianGone | Faulted | Stalled
+    StopDone | StopOpen | GuardianGone | Faulted | Stalled | StopTestPressed | StopTestReleased
 )  # fmt: skip
 
 
@@ -189,11 +204,12 @@ class EndCollecting:
 
 @dataclass(frozen=True, slots=True)
 class SendProposal:
-    """Propose the one increment of this activation."""
+    """Propose the one increment of this activation; that of a stop test is short and slow."""
 
     activation_id: int
     label: str
     t_s: float
+    is_test: bool = False
 
 
 @dataclass(frozen=True, slots=True)

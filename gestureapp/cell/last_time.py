@@ -26,6 +26,7 @@ _CAUSES = {
     StopReason.UNEXPECTED_MOTION.value: "the robot moved without a command",
     StopReason.CELL_FAULT.value: "a part of the program failed",
     StopReason.DISARMED.value: "the program was disarmed",
+    StopReason.STOP_TEST.value: "a stop test ended",
 }
 _LOOK = "Look at the robot before you arm."
 

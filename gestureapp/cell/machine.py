@@ -9,7 +9,7 @@ reached, or STOPPING -> standstill read back -> ARMED after the left arm's own s
 any other.
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 from gestureapp.cell.events import (
     ArmDenied,
@@ -18,7 +18,6 @@ from gestureapp.cell.events import (
     BeginCollecting,
     Decided,
     DisarmPressed,
-    Effect,
     EndCollecting,
     Event,
     Faulted,
@@ -32,16 +31,35 @@ from gestureapp.cell.events import (
     SendArm,
     SendDisarm,
     SendProposal,
-    SendStop,
     Stalled,
     StopDone,
     StopOpen,
     StopPressed,
     StopTaken,
+    StopTestPressed,
+    StopTestReleased,
     StreamLost,
     Ticked,
 )
-from gestureapp.cell.snapshot import Blocker, CellState
+from gestureapp.cell.machine_state import (
+    PERMITTED,
+    MachineState,
+    Rules,
+    Step,
+    ask_stop,
+    enter,
+    enter_stopping,
+    is_latched_stop,
+)
+from gestureapp.cell.snapshot import CellState
+from gestureapp.cell.stop_test_steps import (
+    arm_test_taken,
+    begin_test,
+    left_posture_in_test,
+    move_in_test,
+    propose_test,
+    release_test,
+)
 from gestureapp.config import DriveMode
 from gestureapp.robot.values import StopReason
 from gestureapp.sensing.values import ArmPosture, Side
@@ -55,87 +73,15 @@ ARMING_LIMIT_S = 3.0
 """The guardian gives or refuses permission within 2 s; without an answer arming is given up."""
 
 
-@dataclass(frozen=True, slots=True)
-class Rules:
-    """What the site decides about the machine.
-
-    Attributes:
-        drive_mode: What ends a move.
-        stop_on_right_lost: Whether losing the right sensor stops a running move.
-        has_robot: An address is set; without one nothing can be armed, and nothing moves.
-    """
-
-    drive_mode: DriveMode = DriveMode.HOLD_TO_RUN
-    stop_on_right_lost: bool = True
-    has_robot: bool = True
-
-
-@dataclass(frozen=True, slots=True)
-class MachineState:
-    """All the machine remembers.
-
-    Attributes:
-        state: The one word.
-        since_s: When it was entered.
-        activation_id: Of the newest activation.
-        posture: What the left arm says.
-        stop_since_s: Since when the left arm is in the stop posture; None when it is not.
-        is_left_rested: The left arm was seen in stop since the last activation.
-        blockers: What stands against arming.
-        arming_since_s: When permission was asked for; None once the guardian has answered.
-        has_permission: The guardian has taken the operator's permission and not lost it.
-        proposed_s: When a proposal went out for the present activation; None when none has.
-        stop_reason: Of the last stop.
-        note: Why it is in this state, for a person.
-        is_stop_unconfirmed: The robot has not confirmed a stop in time.
-    """
-
-    state: CellState = CellState.NOT_READY
-    since_s: float = 0.0
-    activation_id: int = 0
-    posture: ArmPosture = ArmPosture.NEITHER
-    stop_since_s: float | None = None
-    is_left_rested: bool = False
-    blockers: tuple[Blocker, ...] = ()
-    arming_since_s: float | None = None
-    has_permission: bool = False
-    proposed_s: float | None = None
-    stop_reason: StopReason | None = None
-    note: str = ""
-    is_stop_unconfirmed: bool = False
-
-    @property
-    def is_proposed(self) -> bool:
-        """A proposal is out for the present activation."""
-        return self.proposed_s is not None
-
-    @property
-    def is_at_rest(self) -> bool:
-        """Nothing may move, and arming is what comes next."""
-        return self.state in (CellState.NOT_READY, CellState.READY, CellState.STOPPED)
-
-    @property
-    def is_arming(self) -> bool:
-        """Permission was asked for; the guardian has not answered."""
-        return self.arming_since_s is not None
-
-    @property
-    def can_arm(self) -> bool:
-        """Arming would be taken now."""
-        return (
-            self.state in (CellState.READY, CellState.STOPPED)
-            and not self.blockers
-            and not self.is_arming
-        )
-
-
-Step = tuple[MachineState, tuple[Effect, ...]]
-
-_PERMITTED = (CellState.ARMED, CellState.ACTIVATED, CellState.MOVING)
-
-
 def step(s: MachineState, event: Event, rules: Rules) -> Step:
     """What an event does: the next state, and what has to be done about it."""
+    s, effects = _step(s, event, rules)
+    if s.test and s.is_at_rest and not s.is_arming:  # however a stop test has ended
+        s = replace(s, test="")
+    return s, effects
+
+
+def _step(s: MachineState, event: Event, rules: Rules) -> Step:
     match event:
         case Ticked():
             return _ticked(s, event)
@@ -145,7 +91,9 @@ def step(s: MachineState, event: Event, rules: Rules) -> Step:
             return _stream_lost(s, event, rules)
         case Decided():
             return _decided(s, event)
-        case ArmPressed() | DisarmPressed() | StopPressed():
+        case (
+            ArmPressed() | DisarmPressed() | StopPressed() | StopTestPressed() | StopTestReleased()
+        ):
             return _pressed(s, event, rules)
         case ArmTaken() | ArmDenied() | PermissionLost():
             return _permission(s, event)
@@ -163,9 +111,11 @@ def _ticked(s: MachineState, event: Ticked) -> Step:
         s = _arm_denied(s, "the guardian has not answered")
         return s, (SendDisarm(), Say(s.note))
     if s.state is CellState.NOT_READY and not s.blockers:
-        return _enter(s, CellState.READY, event.t_s, ""), ()
+        return enter(s, CellState.READY, event.t_s, ""), ()
     if s.state is CellState.READY and s.blockers:
-        return _enter(s, CellState.NOT_READY, event.t_s, s.note), ()
+        return enter(s, CellState.NOT_READY, event.t_s, s.note), ()
+    if s.state is CellState.ARMED and s.test:
+        return propose_test(s, event.t_s)
     if s.state is CellState.ACTIVATED:
         return _waited(s, event.t_s)
     return s, ()
@@ -174,7 +124,7 @@ def _ticked(s: MachineState, event: Ticked) -> Step:
 def _waited(s: MachineState, t_s: float) -> Step:
     if s.proposed_s is not None:
         if t_s - s.proposed_s > PROPOSAL_LIMIT_S:
-            return _ask_stop(s, t_s, StopReason.CELL_FAULT, "no answer to a proposal")
+            return ask_stop(s, t_s, StopReason.CELL_FAULT, "no answer to a proposal")
     elif t_s - s.since_s > DECISION_LIMIT_S:
         return _give_up(s, t_s, "no decision in time")
     return s, ()
@@ -185,14 +135,16 @@ def _left_posture(s: MachineState, event: LeftPosture, rules: Rules) -> Step:
     stop_since_s = (event.t_s if s.stop_since_s is None else s.stop_since_s) if is_stop else None
     is_rested = s.is_left_rested or is_stop
     s = replace(s, posture=event.posture, stop_since_s=stop_since_s, is_left_rested=is_rested)
+    if s.test:
+        return left_posture_in_test(s, event.t_s)
     if s.state is CellState.ARMED and event.posture is ArmPosture.START and s.is_left_rested:
         activation_id = s.activation_id + 1
         s = replace(s, activation_id=activation_id, is_left_rested=False, proposed_s=None)
-        s = _enter(s, CellState.ACTIVATED, event.t_s, "")
+        s = enter(s, CellState.ACTIVATED, event.t_s, "")
         return s, (BeginCollecting(activation_id, event.t_s),)
     if s.state in (CellState.ACTIVATED, CellState.MOVING) and _ends_move(event.posture, rules):
         if s.state is CellState.MOVING or s.is_proposed:
-            return _ask_stop(s, event.t_s, StopReason.LEFT_ARM, "the left arm stopped it")
+            return ask_stop(s, event.t_s, StopReason.LEFT_ARM, "the left arm stopped it")
         return _give_up(s, event.t_s, "the left arm went back before a gesture was recognised")
     return s, ()
 
@@ -204,13 +156,13 @@ def _ends_move(posture: ArmPosture, rules: Rules) -> bool:
 
 
 def _stream_lost(s: MachineState, event: StreamLost, rules: Rules) -> Step:
-    if s.state not in _PERMITTED:
+    if s.state not in PERMITTED:
         return s, ()
     if event.side is Side.LEFT:
-        return _ask_stop(s, event.t_s, StopReason.LEFT_SILENT, event.text)
+        return ask_stop(s, event.t_s, StopReason.LEFT_SILENT, event.text)
     if s.state is CellState.MOVING and not rules.stop_on_right_lost:
         return s, ()
-    return _ask_stop(s, event.t_s, StopReason.RIGHT_LOST, event.text)
+    return ask_stop(s, event.t_s, StopReason.RIGHT_LOST, event.text)
 
 
 def _decided(s: MachineState, event: Decided) -> Step:
@@ -228,13 +180,19 @@ def _decided(s: MachineState, event: Decided) -> Step:
 
 
 def _pressed(
-    s: MachineState, event: ArmPressed | DisarmPressed | StopPressed, rules: Rules
+    s: MachineState,
+    event: ArmPressed | DisarmPressed | StopPressed | StopTestPressed | StopTestReleased,
+    rules: Rules,
 ) -> Step:
     match event:
+        case StopTestPressed():
+            return begin_test(s, event)
+        case StopTestReleased():
+            return release_test(s, event.t_s)
         case StopPressed() if not rules.has_robot:
             return s, (Say(f"{event.text}; there is no robot to stop"),)
         case StopPressed():
-            return _ask_stop(s, event.t_s, StopReason.STOP_PRESSED, event.text)
+            return ask_stop(s, event.t_s, StopReason.STOP_PRESSED, event.text)
         case ArmPressed() if s.can_arm:
             return replace(s, arming_since_s=event.t_s), (SendArm(),)
         case ArmPressed() if s.blockers:
@@ -246,21 +204,23 @@ def _pressed(
 
 def _disarm(s: MachineState, t_s: float) -> Step:
     if s.state in (CellState.MOVING, CellState.ACTIVATED, CellState.STOPPING):
-        return _ask_stop(s, t_s, StopReason.DISARMED, "disarmed by the operator")
+        return ask_stop(s, t_s, StopReason.DISARMED, "disarmed by the operator")
     if s.is_arming and s.state is CellState.STOPPED:
         return replace(s, arming_since_s=None), (SendDisarm(),)
     if s.is_arming or s.state is CellState.ARMED:
         s = replace(s, arming_since_s=None, has_permission=False)
-        s = _enter(s, CellState.NOT_READY, t_s, "disarmed")
+        s = enter(s, CellState.NOT_READY, t_s, "disarmed")
         return s, (SendDisarm(), Say("disarmed"))
     return s, ()
 
 
 def _permission(s: MachineState, event: ArmTaken | ArmDenied | PermissionLost) -> Step:
     match event:
+        case ArmTaken() if s.is_arming and s.is_at_rest and s.test:
+            return arm_test_taken(s, event.t_s)
         case ArmTaken() if s.is_arming and s.is_at_rest and not s.blockers:
             s = replace(s, arming_since_s=None, has_permission=True, stop_reason=None)
-            return _enter(s, CellState.ARMED, event.t_s, ""), (Say("armed"),)
+            return enter(s, CellState.ARMED, event.t_s, ""), (Say("armed"),)
         case ArmTaken() if s.is_arming and s.is_at_rest:
             s = _arm_denied(s, s.blockers[0].text)
             return s, (SendDisarm(), Say(s.note))
@@ -276,10 +236,10 @@ def _permission(s: MachineState, event: ArmTaken | ArmDenied | PermissionLost) -
 
 def _permission_lost(s: MachineState, t_s: float) -> Step:
     if s.state is CellState.ARMED:
-        return _enter(s, CellState.NOT_READY, t_s, "disarmed by the guardian"), ()
-    if s.state in _PERMITTED:
+        return enter(s, CellState.NOT_READY, t_s, "disarmed by the guardian"), ()
+    if s.state in PERMITTED:
         text = "the guardian took the permission away"
-        return _ask_stop(s, t_s, StopReason.CELL_FAULT, text)
+        return ask_stop(s, t_s, StopReason.CELL_FAULT, text)
     return s, ()
 
 
@@ -290,14 +250,16 @@ def _arm_denied(s: MachineState, text: str) -> MachineState:
 def _move(s: MachineState, event: MoveAccepted | MoveRefused | MoveEnded) -> Step:
     if event.activation_id != s.activation_id:
         return s, ()
+    if s.test and not isinstance(event, MoveAccepted):
+        return move_in_test(s, event)
     match event:
         case MoveAccepted() if _is_proposed(s):
-            return _enter(s, CellState.MOVING, event.t_s, s.note), ()
+            return enter(s, CellState.MOVING, event.t_s, s.note), ()
         case MoveRefused() if _is_proposed(s):
             return _give_up(s, event.t_s, f"not moved: {event.text}")
         case MoveEnded() if s.state is CellState.MOVING or _is_proposed(s):
             note = "the end of the increment is reached"
-            return _enter(s, CellState.ARMED, event.t_s, note), (Say(note),)
+            return enter(s, CellState.ARMED, event.t_s, note), (Say(note),)
     return s, ()
 
 
@@ -311,16 +273,20 @@ def _stop(s: MachineState, event: StopTaken | StopDone | StopOpen) -> Step:
             effects = (EndCollecting(),) if s.state is CellState.ACTIVATED else ()
             said = Say(event.text, is_alarm=event.reason.is_latched)
             # The left arm's own stop, told late, takes nobody out of a stop that is latched.
-            if not event.reason.is_latched and (s.is_at_rest or _is_latched_stop(s)):
+            if not event.reason.is_latched and (s.is_at_rest or is_latched_stop(s)):
                 return s, (said,)
-            s = _enter_stopping(s, event.reason, event.t_s, event.text)
+            s = enter_stopping(s, event.reason, event.t_s, event.text)
             return s, (*effects, said)
         case StopDone() if s.state is CellState.STOPPING:
             s = replace(s, is_stop_unconfirmed=False)
             reason = s.stop_reason or event.reason
             is_armed = s.has_permission and not reason.is_latched
+            said = Say("the robot stands, read back")
+            if s.test and s.has_permission:  # a stop test leaves nobody armed
+                s = replace(s, has_permission=False)
+                return enter(s, CellState.STOPPED, event.t_s, s.note), (SendDisarm(), said)
             after = CellState.ARMED if is_armed else CellState.STOPPED
-            return _enter(s, after, event.t_s, s.note), (Say("the robot stands, read back"),)
+            return enter(s, after, event.t_s, s.note), (said,)
         case StopOpen() if s.state is CellState.STOPPING:
             said = Say(f"the robot has not confirmed the stop: {event.text}", is_alarm=True)
             return replace(s, is_stop_unconfirmed=True), (said,)
@@ -329,43 +295,17 @@ def _stop(s: MachineState, event: StopTaken | StopDone | StopOpen) -> Step:
 
 def _failed(s: MachineState, event: GuardianGone | Faulted | Stalled) -> Step:
     if isinstance(event, Stalled):
-        if s.state not in _PERMITTED:
+        if s.state not in PERMITTED:
             return s, ()
-        return _ask_stop(s, event.t_s, StopReason.APPLICATION_STALLED, event.text)
+        return ask_stop(s, event.t_s, StopReason.APPLICATION_STALLED, event.text)
     said = Say(event.text, is_alarm=True)
-    if s.state in (*_PERMITTED, CellState.STOPPING) or isinstance(event, GuardianGone):
-        s, effects = _ask_stop(s, event.t_s, StopReason.CELL_FAULT, event.text)
+    if s.state in (*PERMITTED, CellState.STOPPING) or isinstance(event, GuardianGone):
+        s, effects = ask_stop(s, event.t_s, StopReason.CELL_FAULT, event.text)
         return s, (*effects, said)
     return replace(s, note=event.text), (said,)
-
-
-def _ask_stop(s: MachineState, t_s: float, reason: StopReason, text: str) -> Step:
-    """Have the robot stopped; a latched reason is never replaced by the left arm's own."""
-    effects: tuple[Effect, ...] = (SendStop(reason, text),)
-    if s.state is CellState.ACTIVATED:
-        effects = (EndCollecting(), *effects)
-    if _is_latched_stop(s):
-        return s, effects
-    return _enter_stopping(s, reason, t_s, text), effects
-
-
-def _enter_stopping(s: MachineState, reason: StopReason, t_s: float, text: str) -> MachineState:
-    # Another reason for a stop that is already overdue does not make it less so.
-    is_unconfirmed = s.state is CellState.STOPPING and s.is_stop_unconfirmed
-    s = replace(s, arming_since_s=None, stop_reason=reason, is_stop_unconfirmed=is_unconfirmed)
-    return _enter(s, CellState.STOPPING, t_s, text)
-
-
-def _is_latched_stop(s: MachineState) -> bool:
-    is_latched = s.stop_reason is not None and s.stop_reason.is_latched
-    return s.state is CellState.STOPPING and is_latched
 
 
 def _give_up(s: MachineState, t_s: float, note: str) -> Step:
     """End an activation from which nothing has moved."""
     s = replace(s, proposed_s=None)
-    return _enter(s, CellState.ARMED, t_s, note), (EndCollecting(), Say(note))
-
-
-def _enter(s: MachineState, state: CellState, t_s: float, note: str) -> MachineState:
-    return replace(s, state=state, since_s=t_s, note=note)
+    return enter(s, CellState.ARMED, t_s, note), (EndCollecting(), Say(note))

@@ -9,14 +9,11 @@ from dataclasses import dataclass
 
 from gestureapp.cell.controls import SETUP_OPEN
 from gestureapp.cell.fitness import FIT, NOT_CALIBRATED, Judgement
-from gestureapp.cell.snapshot import Blocker
+from gestureapp.cell.snapshot import MODEL_BLOCKER, SETUP_BLOCKER, Blocker
 from gestureapp.robot.gate import STATUS_MAX_AGE_S, find_foreign_tool, robot_blocker
 from gestureapp.robot.values import Position, Refusal, RobotStatus
 from gestureapp.robot.workspace import FieldOfOperation, find_outside
 from gestureapp.sensing.values import StreamHealth
-
-MODEL_BLOCKER, SETUP_BLOCKER = "model", "setup"
-"""They do not stand against a stop test: it needs no gesture, and begins in Setup."""
 
 _REMEDIES = {
     "no_status": "wait, or check the cable to the controller",

@@ -36,6 +36,11 @@ class Blocker:
     remedy: str
 
 
+MODEL_BLOCKER, SETUP_BLOCKER = "model", "setup"
+STOP_TEST_IGNORES = frozenset({MODEL_BLOCKER, SETUP_BLOCKER})
+"""What does not stand against a stop test: it needs no gesture, and begins beside an open setup."""
+
+
 @dataclass(frozen=True, slots=True)
 class EventLine:
     """One line of the cell's story for a person. ``t_s`` monotonic, ``wall_s`` since the epoch."""

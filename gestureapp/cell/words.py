@@ -1,13 +1,20 @@
 """The cell's state in a sentence: what to do next, or why nothing moves. Pure."""
 
-from gestureapp.cell.machine import MachineState
+from gestureapp.cell.machine_state import MachineState
 from gestureapp.cell.snapshot import CellState
 from gestureapp.config import DriveMode
+
+_TEST_SENTENCES = {
+    CellState.ARMED: "The robot moves in a moment; keep the left arm in the stop posture.",
+    CellState.ACTIVATED: "Asking the robot.",
+    CellState.MOVING: "Press STOP.",
+}
 
 
 def sentence(s: MachineState, drive_mode: DriveMode) -> str:
     """One sentence for a person, under the one word."""
-    said = _sentence(s, drive_mode)
+    is_in_test = s.test and s.state in _TEST_SENTENCES
+    said = _in_test(s) if is_in_test else _sentence(s, drive_mode)
     return said[:1].upper() + said[1:]
 
 
@@ -35,6 +42,10 @@ def _sentence(s: MachineState, drive_mode: DriveMode) -> str:
         case CellState.STOPPED:
             after = "Hold Arm for one second." if s.can_arm else _after_stop(s)
             return f"{s.note}. The robot stands. {after}"
+
+
+def _in_test(s: MachineState) -> str:
+    return f"Stop test along {s.test}. {_TEST_SENTENCES[s.state]}"
 
 
 def _armed(s: MachineState) -> str:

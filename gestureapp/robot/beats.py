@@ -97,9 +97,11 @@ class Beats:
         stall = find_stall(self._stalled_s, self._limits)
         return stall or find_stale(self.newest, self._limits, now_s)
 
-    def find_left_end(self) -> Cause | None:
-        """Whether the left arm ends a move."""
-        return None if self.newest is None else find_left_end(self.newest, self._limits)
+    def find_left_end(self, *, is_test: bool) -> Cause | None:
+        """Whether the left arm ends a move, or a stop test's."""
+        if self.newest is None:
+            return None
+        return find_left_end(self.newest, self._limits, is_test=is_test)
 
     def next_look_s(self, now_s: float, *, may_move: bool) -> float:
         """When to look at the clocks again, if nothing new comes."""

@@ -22,6 +22,11 @@ class Commands:
         self.last_activation_id = 0
 
     @property
+    def is_test(self) -> bool:
+        """The open one is a stop test's."""
+        return self.motion is not None and self.motion.command.proposal.caps is not None
+
+    @property
     def is_any(self) -> bool:
         """One waits or is open."""
         return self.pending is not None or self.motion is not None
@@ -30,7 +35,7 @@ class Commands:
         self, message: m.Propose, view: GateView, limits: Limits, now_s: float
     ) -> m.CommandRefused | None:
         """Ask the gate; what it lets through waits for the line."""
-        proposal = Proposal(message.activation_id, message.direction, message.t_s)
+        proposal = Proposal(message.activation_id, message.direction, message.t_s, message.caps)
         decision = decide(proposal, view, limits, now_s)
         if isinstance(decision, Refusal):
             return m.CommandRefused(message.activation_id, decision)

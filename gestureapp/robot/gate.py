@@ -9,8 +9,15 @@ from dataclasses import dataclass
 
 from gestureapp.robot import nx100
 from gestureapp.robot.nx100 import Request
-from gestureapp.robot.values import Direction, Position, Refusal, RobotStatus, StopReason
-from gestureapp.robot.workspace import FieldOfOperation, Plan, find_outside, plan
+from gestureapp.robot.values import Caps, Direction, Position, Refusal, RobotStatus, StopReason
+from gestureapp.robot.workspace import (
+    MIN_LENGTH_MM,
+    FieldOfOperation,
+    Plan,
+    find_outside,
+    plan,
+    shortened,
+)
 
 SPEED_CAP_MM_S = 250.0
 """Manual reduced speed of ISO 10218, as quoted by secondary sources; no site may go above."""
@@ -24,6 +31,10 @@ PROPOSAL_MAX_AGE_S = 0.15
 """A decision that took longer to arrive is not what the person means now."""
 AHEAD_S = 0.05
 """A stamp this far in the future is not from our clock."""
+LEAST_SPEED_MM_S = 0.1
+"""The wire says one decimal."""
+TEST_MOST = Caps(length_mm=20.0, speed_mm_s=20.0)
+"""No stop test is longer or faster, whatever caps it comes with."""
 ROBOT_FRAMES = (0, 1)
 """Base and robot: the same place, as the robot stands on no base axis."""
 
@@ -63,7 +74,7 @@ class Limits:
 
     def __post_init__(self) -> None:
         for name, low, high in (
-            ("speed_mm_s", 0.1, SPEED_CAP_MM_S),
+            ("speed_mm_s", LEAST_SPEED_MM_S, SPEED_CAP_MM_S),
             ("speed_deg_s", 0.1, SPEED_CAP_DEG_S),
             ("frame", 0, 25),
             ("tool", 0, 23),
@@ -89,11 +100,13 @@ class Proposal:
         activation_id: Counts up; one activation gives at most one increment.
         direction: Where to.
         t_s: When it was decided, monotonic clock.
+        caps: A stop test's: the move is narrowed to them, and the left arm rests. Else None.
     """
 
     activation_id: int
     direction: Direction
     t_s: float
+    caps: Caps | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -201,7 +214,8 @@ def decide(proposal: Proposal, view: GateView, limits: Limits, now_s: float) -> 
         or _freshness(proposal, view, limits, now_s)
         or robot_blocker(view.status)
         or find_foreign_tool(view.position, limits.tool)
-        or _left_arm(view, limits, now_s)
+        or _not_testable(proposal)
+        or _left_arm(proposal, view, limits, now_s)
     )
     if refusal is not None:
         return refusal
@@ -210,6 +224,10 @@ def decide(proposal: Proposal, view: GateView, limits: Limits, now_s: float) -> 
     if isinstance(planned, Refusal):
         return planned
     asked = limits.speed_deg_s if proposal.direction.is_rotation else limits.speed_mm_s
+    if (caps := proposal.caps) is not None:
+        asked = min(asked, caps.speed_mm_s, TEST_MOST.speed_mm_s)
+        longest_mm = min(caps.length_mm, TEST_MOST.length_mm)
+        planned = shortened(planned, proposal.direction, longest_mm, "length of a stop test")
     speed = nx100.wire_speed(asked)
     request = nx100.move_increment(planned.increment, speed, limits.frame, limits.tool)
     return Command(proposal, planned, speed, Permit(request))
@@ -323,7 +341,27 @@ def _freshness(proposal: Proposal, view: GateView, limits: Limits, now_s: float)
     return None
 
 
-def _left_arm(view: GateView, limits: Limits, now_s: float) -> Refusal | None:
+def _not_testable(proposal: Proposal) -> Refusal | None:
+    """A stop test goes straight, some way, at some speed."""
+    caps = proposal.caps
+    if caps is None:
+        return None
+    if proposal.direction.is_rotation:
+        return Refusal("stop_test", "a stop test moves straight, it does not turn")
+    for value, least, unit in (
+        (caps.length_mm, MIN_LENGTH_MM, "mm"),
+        (caps.speed_mm_s, LEAST_SPEED_MM_S, "mm/s"),
+    ):
+        if not value >= least:
+            asked, limit = f"{value:g} {unit}", f"{least:g} {unit}"
+            text = f"a stop test of {asked} is too little, at least {limit}"
+            return Refusal("stop_test", text, asked, limit)
+    return None
+
+
+def _left_arm(proposal: Proposal, view: GateView, limits: Limits, now_s: float) -> Refusal | None:
+    if proposal.caps is not None:
+        return _left_not_stop(view) or _left_silent(view, limits, now_s)
     if not view.is_left_start:
         return Refusal("left_not_start", "the left arm is not in the start posture")
     return _left_silent(view, limits, now_s)

@@ -15,7 +15,15 @@ from typing import Any
 
 from gestureapp.robot.address import is_loopback
 from gestureapp.robot.gate import Limits
-from gestureapp.robot.values import Direction, Pose, PoseIncrement, Position, Refusal, StopReason
+from gestureapp.robot.values import (
+    Caps,
+    Direction,
+    Pose,
+    PoseIncrement,
+    Position,
+    Refusal,
+    StopReason,
+)
 
 
 @dataclass(frozen=True, slots=True)
@@ -101,11 +109,12 @@ class Disarm:
 
 @dataclass(frozen=True, slots=True)
 class Propose:
-    """One increment, for one activation."""
+    """One increment, for one activation; with caps it is a stop test's."""
 
     activation_id: int
     direction: Direction
     t_s: float
+    caps: Caps | None = None
 
 
 @dataclass(frozen=True, slots=True)

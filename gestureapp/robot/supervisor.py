@@ -134,8 +134,7 @@ class Supervisor:
             case m.Stop():
                 self.stop(message.reason, message.text, now_s)
             case m.Propose():
-                view = self._view()
-                self._out.tell(self._commands.propose(message, view, self.limits, now_s))
+                self._out.tell(self._commands.propose(message, self._view(), self.limits, now_s))
             case m.Arm():
                 self._ask_arm(now_s)
             case m.Disarm():
@@ -203,7 +202,7 @@ class Supervisor:
     def _take_beat(self, beat: m.Beat, now_s: float) -> None:
         self._beats.take(beat, now_s)
         if self.has_commanded and not self._stop.is_active:
-            self._stop_for(self._beats.find_left_end(), now_s)
+            self._stop_for(self._beats.find_left_end(is_test=self._commands.is_test), now_s)
 
     def _watch(self, now_s: float) -> None:
         self._beats.watched(now_s)
@@ -384,11 +383,12 @@ class Supervisor:
     def _check_motion(self, now_s: float) -> None:
         if self._stop.is_active:
             return
-        outcome = self._commands.check(now_s)
+        was_test, outcome = self._commands.is_test, self._commands.check(now_s)
         if isinstance(outcome, StoppedShort):
-            self.stop(outcome.reason, outcome.text, now_s)
-        else:
-            self._out.tell(outcome)
+            return self.stop(outcome.reason, outcome.text, now_s)
+        self._out.tell(outcome)
+        if was_test and outcome is not None:  # it leaves nobody armed
+            self._lose_permission("the stop test has ended")
 
     def _check_release(self, now_s: float) -> None:
         """After the left arm's own stop the hold is released, once that arm is back in stop."""

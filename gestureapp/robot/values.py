@@ -213,11 +213,25 @@ class StopReason(Enum):
     UNEXPECTED_MOTION = "robot moved without a command"
     CELL_FAULT = "cell fault"
     DISARMED = "disarmed"
+    STOP_TEST = "stop test ended"
 
     @property
     def is_latched(self) -> bool:
         """Whether arming again is needed before anything moves."""
         return self is not StopReason.LEFT_ARM
+
+
+@dataclass(frozen=True, slots=True)
+class Caps:
+    """What a stop test narrows a move to, never beyond the gate's own and the site's limits.
+
+    Attributes:
+        length_mm: Longest.
+        speed_mm_s: Fastest.
+    """
+
+    length_mm: float
+    speed_mm_s: float
 
 
 @dataclass(frozen=True, slots=True)

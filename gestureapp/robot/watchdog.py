@@ -73,8 +73,14 @@ def next_look_s(beat: Beat | None, limits: Limits, now_s: float, *, may_move: bo
     return min(now_s + TICK_S, stale_s) if stale_s > now_s else now_s + TICK_S
 
 
-def find_left_end(beat: Beat, limits: Limits) -> Cause | None:
-    """Whether the left arm ends a move: in hold-to-run by leaving start, else by taking stop."""
+def find_left_end(beat: Beat, limits: Limits, *, is_test: bool = False) -> Cause | None:
+    """Whether the left arm ends a move: in hold-to-run by leaving start, else by taking stop.
+
+    For a stop test it rests: leaving stop ends it, latched.
+    """
+    if is_test:
+        text = "the left arm left the stop posture"
+        return None if beat.is_left_stop else Cause(StopReason.STOP_TEST, text)
     if beat.is_left_stop or (limits.is_hold_to_run and not beat.is_left_start):
         return Cause(StopReason.LEFT_ARM, "the left arm stopped it")
     return None

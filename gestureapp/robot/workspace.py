@@ -129,6 +129,22 @@ def plan(position: Position, direction: Direction, field: FieldOfOperation) -> P
     return found if isinstance(found, Refusal) else _planned(position, direction, field, found)
 
 
+def shortened(planned: Plan, direction: Direction, longest_mm: float, why: str) -> Plan:
+    """A translation of at most this length: the same plan, or the beginning of it.
+
+    Args:
+        planned: As far as field and arm allow.
+        direction: Its direction.
+        longest_mm: At most so far.
+        why: What ends it then, in words.
+    """
+    if planned.length <= longest_mm:
+        return planned
+    length = _towards_zero(longest_mm, 3)
+    change: Vector = tuple(part * length + 0.0 for part in direction.unit)  # type: ignore[assignment]
+    return Plan(planned.start, PoseIncrement(*change), length, why)
+
+
 def nearest_turn(angle_deg: float, range_deg: tuple[float, float]) -> float:
     """The angle plus whole turns that lies nearest to the middle of a range."""
     middle = sum(range_deg) / 2

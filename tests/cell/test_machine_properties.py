@@ -6,7 +6,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from gestureapp.cell import events as e
-from gestureapp.cell.machine import MachineState, Rules, Step, step
+from gestureapp.cell.machine import step
+from gestureapp.cell.machine_state import MachineState, Rules, Step
 from gestureapp.cell.snapshot import Blocker, CellState
 from gestureapp.config import DriveMode
 from gestureapp.gestures import LABELS
@@ -15,6 +16,7 @@ from gestureapp.sensing.values import ArmPosture, Side
 
 S = CellState
 BLOCKER = Blocker("servo", "servo power is off", "press Servo on")
+SETUP = Blocker("setup", "setup is open", "go back to Operate")
 PERMITTED = (S.ARMED, S.ACTIVATED, S.MOVING)
 
 
@@ -30,11 +32,13 @@ class Happening:
     label: str | None = None
     reason: StopReason = StopReason.LEFT_ARM
     is_blocked: bool = False
+    is_setup: bool = False
 
     def event(self, s: MachineState, t_s: float) -> e.Event:
         activation_id = s.activation_id + self.id_offset
+        against = (BLOCKER, SETUP) if self.is_blocked else (SETUP,) if self.is_setup else ()
         made: dict[str, e.Event] = {
-            "tick": e.Ticked(t_s, (BLOCKER,) if self.is_blocked else ()),
+            "tick": e.Ticked(t_s, against),
             "posture": e.LeftPosture(t_s, self.posture),
             "lost": e.StreamLost(t_s, self.side, "no data"),
             "arm": e.ArmPressed(t_s),
@@ -53,6 +57,8 @@ class Happening:
             "gone": e.GuardianGone(t_s, "text"),
             "fault": e.Faulted(t_s, "text"),
             "stall": e.Stalled(t_s, "text"),
+            "test": e.StopTestPressed(t_s, self.label or "X+"),
+            "released": e.StopTestReleased(t_s),
         }
         return made[self.kind]
 
@@ -70,6 +76,12 @@ def _to_moving(label: str = "X+") -> list[Happening]:
     return [start, Happening("decided", label=label), Happening("accepted")]
 
 
+def _to_test_moving(label: str = "Y-") -> list[Happening]:
+    before = [Happening("posture"), Happening("tick", is_setup=True)]
+    armed = [Happening("test", label=label), Happening("taken")]
+    return [*before, *armed, Happening("tick", 0.6, is_setup=True), Happening("accepted")]
+
+
 def _stretch(happenings: list[Happening]) -> st.SearchStrategy[list[Happening]]:
     return st.just(happenings)
 
@@ -82,6 +94,8 @@ ANYTHING = st.builds(
             *("unarmed", "accepted", "refused", "ended", "stopping", "stands", "open", "gone"),
             "fault",
             "stall",
+            "test",
+            "released",
         )
     ),
     delay_s=st.sampled_from((0.0, 0.01, 0.2, 1.1, 3.5)),
@@ -91,6 +105,7 @@ ANYTHING = st.builds(
     label=st.sampled_from((*LABELS, None)),
     reason=st.sampled_from(StopReason),
     is_blocked=st.booleans(),
+    is_setup=st.booleans(),
 )
 LIFE = st.lists(
     st.one_of(
@@ -99,6 +114,8 @@ LIFE = st.lists(
         _stretch(_to_armed()),
         _stretch(_to_moving()),
         _stretch([*_to_ready(), *_to_armed(), *_to_moving()]),
+        _stretch(_to_test_moving()),
+        _stretch(_to_test_moving()[:4]),
         _stretch([Happening("stopping"), Happening("stands"), Happening("posture")]),
     ),
     max_size=12,
@@ -148,6 +165,8 @@ def test_nothing_is_proposed_but_what_was_decided_for_this_activation(
 ):
     for lived in live(life, rules).steps:
         for proposal in sent(lived, e.SendProposal):
+            if proposal.is_test:
+                continue
             assert lived.before.state is lived.after.state is S.ACTIVATED
             assert isinstance(lived.event, e.Decided)
             assert proposal == e.SendProposal(
@@ -172,7 +191,7 @@ def test_every_way_out_of_moving_but_its_end_has_asked_for_a_stop(
         if lived.before.state is not S.MOVING or lived.after.state is S.MOVING:
             continue
         if isinstance(lived.event, e.MoveEnded):
-            assert lived.after.state is S.ARMED
+            assert lived.after.state is (S.NOT_READY if lived.before.test else S.ARMED)
         else:
             assert lived.after.state is S.STOPPING
             assert sent(lived, e.SendStop) or isinstance(lived.event, e.StopTaken)
@@ -211,6 +230,7 @@ def test_a_latched_reason_ends_in_stopped_and_only_the_left_arms_own_in_armed(
             assert isinstance(lived.event, e.StopDone)
             assert reason is not None
             is_armed = lived.before.has_permission and not reason.is_latched
+            is_armed = is_armed and not lived.before.test
             assert lived.after.state is (S.ARMED if is_armed else S.STOPPED)
 
 
@@ -238,8 +258,11 @@ def test_the_left_arm_is_seen_in_stop_between_two_activations(life: list[Happeni
         if lived.after.activation_id != lived.before.activation_id:
             assert lived.after.activation_id == lived.before.activation_id + 1
             assert lived.before.state is S.ARMED
-            assert is_rested
-            is_rested = False
+            if lived.before.test:
+                assert lived.after.posture is ArmPosture.STOP
+            else:
+                assert is_rested
+                is_rested = False
 
 
 @given(LIFE, RULES)
@@ -250,7 +273,8 @@ def test_permission_is_only_there_after_it_was_asked_for_and_taken_with_nothing_
         if lived.before.is_at_rest and lived.after.state in PERMITTED:
             assert isinstance(lived.event, e.ArmTaken)
             assert lived.before.is_arming
-            assert lived.after.blockers == ()
+            against = {blocker.id for blocker in lived.after.blockers}
+            assert against <= ({"setup"} if lived.before.test else set())
 
 
 @given(LIFE, RULES)
@@ -279,6 +303,8 @@ def test_the_recogniser_is_asked_and_released_in_turn(life: list[Happening], rul
 
 def cooperate(s: MachineState, t_s: float) -> e.Event:
     """What a patient person, a healthy cell and a guardian that answers would bring next."""
+    if s.test and s.state is not S.STOPPING:
+        return e.StopTestReleased(t_s)
     if s.state is S.STOPPING:
         return e.StopDone(t_s, StopReason.LEFT_ARM)
     if s.state is S.ACTIVATED:
@@ -299,7 +325,7 @@ def test_from_wherever_it_is_the_cell_can_be_armed_and_activated_again(
 ):
     life = live(happenings, rules)
     for _ in range(6):
-        if life.state.state is S.ARMED:
+        if life.state.state is S.ARMED and not life.state.test:
             break
         life.t_s += 0.01
         life.do(cooperate(life.state, life.t_s), rules)

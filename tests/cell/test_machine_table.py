@@ -8,15 +8,10 @@ from gestureapp.cell import events as e
 from gestureapp.cell.machine import (
     ARMING_LIMIT_S,
     DECISION_LIMIT_S,
-    PROPOSAL_LIMIT_S,
-    MachineState,
-    Rules,
     step,
 )
+from gestureapp.cell.machine_state import MachineState, Rules
 from gestureapp.cell.snapshot import Blocker, CellState
-from gestureapp.config import DriveMode
-from gestureapp.recognition.decision import BUDGET_MOST_S
-from gestureapp.recognition.onset import GIVE_UP_S
 from gestureapp.robot.values import StopReason
 from gestureapp.sensing.values import ArmPosture, Side
 
@@ -24,6 +19,7 @@ NOW_S = 100.0
 """When the event comes; the state was entered at 99.9."""
 ID = 7
 BLOCKER = Blocker("servo", "servo power is off", "press Servo on")
+SETUP = Blocker("setup", "setup is open", "go back to Operate")
 
 S = CellState
 BASE = MachineState(since_s=99.9, activation_id=ID, posture=ArmPosture.STOP, stop_since_s=90.0)
@@ -48,6 +44,23 @@ STATES = {
     ),
     "stopped, arming": replace(
         BASE, state=S.STOPPED, stop_reason=StopReason.STOP_PRESSED, arming_since_s=99.9
+    ),
+}
+
+TEST = replace(BASE, test="X+")
+TEST_ARMED = replace(TEST, has_permission=True)
+STATES |= {
+    "ready for a test": replace(BASE, state=S.NOT_READY, blockers=(SETUP,)),
+    "test, arming": replace(TEST, state=S.NOT_READY, blockers=(SETUP,), arming_since_s=99.9),
+    "test, stopped, arming": replace(
+        TEST, state=S.STOPPED, stop_reason=StopReason.STOP_PRESSED, arming_since_s=99.9
+    ),
+    "test, armed": replace(TEST_ARMED, state=S.ARMED, is_left_rested=True),
+    "test, proposed": replace(TEST_ARMED, state=S.ACTIVATED, proposed_s=99.9),
+    "test, moving": replace(TEST_ARMED, state=S.MOVING, proposed_s=99.9),
+    "test, stopping": replace(TEST, state=S.STOPPING, stop_reason=StopReason.STOP_PRESSED),
+    "test, stopping, left arm": replace(
+        TEST_ARMED, state=S.STOPPING, stop_reason=StopReason.LEFT_ARM
     ),
 }
 
@@ -81,6 +94,9 @@ EVENTS = {
     "guardian gone": e.GuardianGone(NOW_S, "the guardian has ended"),
     "faulted": e.Faulted(NOW_S, "left reader ended"),
     "stalled": e.Stalled(NOW_S, "application stood still"),
+    "test": e.StopTestPressed(NOW_S, "X+"),
+    "test that turns": e.StopTestPressed(NOW_S, "RX+"),
+    "test released": e.StopTestReleased(NOW_S),
 }
 
 
@@ -104,6 +120,8 @@ EVERYWHERE = {
     "guardian gone": Then(S.STOPPING, ("SendStop", "Say")),
     "arm taken": Then(S.NOT_READY, ("SendDisarm",)),  # the state stays what it is, see below
     "faulted": Then(S.NOT_READY, ("Say",)),
+    "test": Then(S.NOT_READY, ("Say",)),
+    "test that turns": Then(S.NOT_READY, ("Say",)),
 }
 """What holds in every state, unless the state's own row says otherwise."""
 
@@ -137,10 +155,25 @@ STOPPING_ROW = {
     "stop open": Then(S.STOPPING, ("Say",)),
     "faulted": Then(S.STOPPING, ("SendStop", "Say")),
 }
+BEGUN = ("SendArm", "Say")
+TEST_ENDED = Then(S.NOT_READY, ("SendDisarm", "Say"))
+TEST_MOVING_ROW = {
+    "left start": STOP,
+    "left neither": STOP,
+    "left lost": STOP,
+    "right lost": STOP,
+    "disarm": STOP,
+    "permission lost": STOP,
+    "stalled": STOP,
+    "faulted": Then(S.STOPPING, ("SendStop", "Say")),
+    "test released": STOP,
+    "ended": TEST_ENDED,
+}
 ROWS: dict[str, dict[str, Then]] = {
     "not ready": {"tick, ready": Then(S.READY), "late tick": Then(S.READY)}
     | {"arm": Then(S.NOT_READY, ("Say",))},
-    "ready": {"tick, blocked": Then(S.NOT_READY), "arm": Then(S.READY, ("SendArm",))},
+    "ready": {"tick, blocked": Then(S.NOT_READY), "arm": Then(S.READY, ("SendArm",))}
+    | {"test": Then(S.READY, BEGUN)},
     "arming": {
         "tick, blocked": Then(S.NOT_READY),
         "late tick": Then(S.READY, ("SendDisarm", "Say")),
@@ -176,7 +209,7 @@ ROWS: dict[str, dict[str, Then]] = {
     "stopping, left arm": STOPPING_ROW | {"stop done": Then(S.ARMED, ("Say",))},
     "stopping, not permitted": STOPPING_ROW | {"stop done": Then(S.STOPPED, ("Say",))},
     "stopping, latched": STOPPING_ROW | {"stop done": Then(S.STOPPED, ("Say",))},
-    "stopped": {"arm": Then(S.STOPPED, ("SendArm",))},
+    "stopped": {"arm": Then(S.STOPPED, ("SendArm",)), "test": Then(S.STOPPED, BEGUN)},
     "stopped, blocked": {"arm": Then(S.STOPPED, ("Say",))},
     "stopped, arming": {
         "late tick": Then(S.STOPPED, ("SendDisarm", "Say")),
@@ -184,6 +217,58 @@ ROWS: dict[str, dict[str, Then]] = {
         "arm taken": Then(S.ARMED, ("Say",)),
         "arm denied": Then(S.STOPPED, ("Say",)),
     },
+    "ready for a test": {
+        "tick, ready": Then(S.READY),
+        "late tick": Then(S.READY),
+        "arm": Then(S.NOT_READY, ("Say",)),
+        "test": Then(S.NOT_READY, BEGUN),
+    },
+    "test, arming": {
+        "tick, ready": Then(S.READY),
+        "late tick": Then(S.NOT_READY, ("SendDisarm", "Say")),
+        "left start": TEST_ENDED,
+        "left neither": TEST_ENDED,
+        "arm": Then(S.NOT_READY, ("Say",)),
+        "disarm": TEST_ENDED,
+        "arm taken": Then(S.ARMED, ("Say",)),
+        "arm denied": Then(S.NOT_READY, ("Say",)),
+        "test released": TEST_ENDED,
+    },
+    "test, stopped, arming": {
+        "late tick": Then(S.STOPPED, ("SendDisarm", "Say")),
+        "left start": Then(S.STOPPED, ("SendDisarm", "Say")),
+        "left neither": Then(S.STOPPED, ("SendDisarm", "Say")),
+        "disarm": Then(S.STOPPED, ("SendDisarm",)),
+        "arm taken": Then(S.ARMED, ("Say",)),
+        "arm denied": Then(S.STOPPED, ("Say",)),
+        "test released": Then(S.STOPPED, ("SendDisarm", "Say")),
+    },
+    "test, armed": ARMED_ROW
+    | {
+        "late tick": Then(S.ACTIVATED, ("SendProposal",)),
+        "left start": TEST_ENDED,
+        "left neither": TEST_ENDED,
+        "test released": TEST_ENDED,
+    },
+    "test, proposed": {
+        event: replace(then, effects=("EndCollecting", *then.effects))
+        if then != TEST_ENDED
+        else then
+        for event, then in TEST_MOVING_ROW.items()
+    }
+    | {
+        "late tick": COLLECTING_STOPPED,
+        "stop": COLLECTING_STOPPED,
+        "guardian gone": Then(S.STOPPING, ("EndCollecting", "SendStop", "Say")),
+        "left arm's stop taken": Then(S.STOPPING, ("EndCollecting", "Say")),
+        "latched stop taken": Then(S.STOPPING, ("EndCollecting", "Say")),
+        "accepted": Then(S.MOVING),
+        "refused": TEST_ENDED,
+    },
+    "test, moving": TEST_MOVING_ROW,
+    "test, stopping": STOPPING_ROW | {"stop done": Then(S.STOPPED, ("Say",))},
+    "test, stopping, left arm": STOPPING_ROW
+    | {"stop done": Then(S.STOPPED, ("SendDisarm", "Say"))},
 }
 
 
@@ -212,146 +297,3 @@ def test_every_state_does_with_every_event_what_the_table_says(state: str, event
 def test_the_table_has_every_kind_of_event_and_every_state():
     assert {type(event) for event in EVENTS.values()} == set(e.Event.__args__)  # type: ignore[attr-defined]
     assert {state.state for state in STATES.values()} == set(CellState)
-
-
-@pytest.mark.parametrize(
-    ("posture", "after"),
-    [(ArmPosture.NEITHER, S.MOVING), (ArmPosture.STOP, S.STOPPING), (ArmPosture.START, S.MOVING)],
-)
-def test_in_start_stop_mode_only_the_stop_posture_ends_a_move(
-    posture: ArmPosture, after: CellState
-):
-    rules = Rules(drive_mode=DriveMode.START_STOP)
-    state, _ = step(STATES["moving"], e.LeftPosture(NOW_S, posture), rules)
-    assert state.state is after
-
-
-def test_in_start_stop_mode_an_arm_on_its_way_does_not_end_an_activation():
-    rules = Rules(drive_mode=DriveMode.START_STOP)
-    state, effects = step(STATES["activated"], e.LeftPosture(NOW_S, ArmPosture.NEITHER), rules)
-    assert (state.state, effects) == (S.ACTIVATED, ())
-
-
-def test_a_site_may_go_on_moving_without_the_right_sensor_but_not_activated():
-    rules = Rules(stop_on_right_lost=False)
-    lost = EVENTS["right lost"]
-    assert step(STATES["moving"], lost, rules) == (STATES["moving"], ())
-    assert step(STATES["activated"], lost, rules)[0].state is S.STOPPING
-
-
-def test_a_guardians_own_reason_replaces_the_cells_guess():
-    """The guardian takes the permission first and says why after."""
-    guessed, _ = step(STATES["moving"], e.PermissionLost(NOW_S), Rules())
-    assert guessed.stop_reason is StopReason.CELL_FAULT
-    told = e.StopTaken(NOW_S, StopReason.WINDOW_STALE, "window frozen for 510 ms")
-    state, _ = step(guessed, told, Rules())
-    assert (state.stop_reason, state.note) == (StopReason.WINDOW_STALE, told.text)
-
-
-def test_the_left_arms_own_stop_never_unlatches_another():
-    state, _ = step(STATES["stopping, latched"], EVENTS["left arm's stop taken"], Rules())
-    assert state.stop_reason is StopReason.STOP_PRESSED
-    state, _ = step(state, EVENTS["left neither"], Rules())
-    state, _ = step(state, EVENTS["stop done"], Rules())
-    assert state.state is S.STOPPED
-
-
-def test_a_latched_stop_goes_over_the_left_arms_own():
-    state, _ = step(STATES["stopping, left arm"], EVENTS["stop"], Rules())
-    state, _ = step(state, EVENTS["stop done"], Rules())
-    assert (state.state, state.stop_reason) == (S.STOPPED, StopReason.STOP_PRESSED)
-
-
-def test_disarming_while_the_left_arm_stops_is_kept_after_standstill():
-    state, effects = step(STATES["stopping, left arm"], EVENTS["disarm"], Rules())
-    assert effects == (e.SendStop(StopReason.DISARMED, "disarmed by the operator"),)
-    state, _ = step(state, EVENTS["stop done"], Rules())
-    assert state.state is S.STOPPED
-
-
-def test_permission_given_while_something_stands_against_it_is_given_back():
-    arming = replace(STATES["arming"], blockers=(BLOCKER,))
-    state, effects = step(arming, e.ArmTaken(NOW_S), Rules())
-    assert (state.state, state.is_arming) == (S.READY, False)
-    assert effects == (e.SendDisarm(), e.Say("not armed: servo power is off"))
-
-
-def test_a_refusal_that_comes_after_a_stop_does_not_hide_why_it_stopped():
-    state, _ = step(STATES["arming"], EVENTS["stop"], Rules())
-    state, _ = step(state, EVENTS["arm denied"], Rules())
-    assert state.note == "STOP was pressed"
-
-
-def test_arming_without_any_answer_is_given_up_and_can_be_tried_again():
-    state, _ = step(STATES["ready"], EVENTS["arm"], Rules())
-    state, _ = step(state, e.Ticked(NOW_S + ARMING_LIMIT_S, ()), Rules())
-    assert state.is_arming
-    state, _ = step(state, e.Ticked(NOW_S + ARMING_LIMIT_S + 0.01, ()), Rules())
-    assert (state.can_arm, state.note) == (True, "not armed: the guardian has not answered")
-
-
-def test_an_unconfirmed_stop_is_marked_until_standstill_is_read_back():
-    state, effects = step(STATES["stopping, latched"], EVENTS["stop open"], Rules())
-    assert state.is_stop_unconfirmed
-    assert effects[-1] == e.Say(
-        "the robot has not confirmed the stop: no standstill read back", is_alarm=True
-    )
-    state, _ = step(state, EVENTS["stop done"], Rules())
-    assert not state.is_stop_unconfirmed
-
-
-def test_an_unconfirmed_stop_stays_so_when_it_gets_another_reason():
-    state, _ = step(STATES["stopping, left arm"], EVENTS["stop open"], Rules())
-    for event in ("stop", "latched stop taken", "guardian gone"):
-        state, _ = step(state, EVENTS[event], Rules())
-        assert state.is_stop_unconfirmed
-
-
-def test_an_activation_given_up_needs_the_stop_posture_before_the_next():
-    state, _ = step(STATES["armed"], EVENTS["left start"], Rules())
-    state, _ = step(state, e.Decided(NOW_S, ID + 1, None, "no clear gesture"), Rules())
-    state, _ = step(state, EVENTS["left start"], Rules())
-    assert (state.state, state.activation_id) == (S.ARMED, ID + 1)
-    state, _ = step(state, EVENTS["left stop"], Rules())
-    state, _ = step(state, EVENTS["left start"], Rules())
-    assert (state.state, state.activation_id) == (S.ACTIVATED, ID + 2)
-
-
-def test_the_stop_posture_counts_from_its_first_sample_even_at_time_zero():
-    state, _ = step(MachineState(), e.LeftPosture(0.0, ArmPosture.STOP), Rules())
-    state, _ = step(state, e.LeftPosture(5.0, ArmPosture.STOP), Rules())
-    assert state.stop_since_s == 0.0
-
-
-def test_a_proposal_carries_the_label_and_the_time_of_its_decision():
-    _, effects = step(STATES["activated"], EVENTS["recognised"], Rules())
-    assert effects[0] == e.SendProposal(ID, "X+", NOW_S)
-
-
-def test_every_stop_of_the_left_sensor_says_what_was_wrong_with_it():
-    _, effects = step(STATES["moving"], EVENTS["left lost"], Rules())
-    assert effects == (e.SendStop(StopReason.LEFT_SILENT, "left sensor no data"),)
-
-
-@pytest.mark.parametrize("state", ["not ready", "ready"])
-def test_stop_without_any_robot_is_told_and_asks_nobody(state: str):
-    rules = Rules(has_robot=False)
-    after, effects = step(STATES[state], e.StopPressed(NOW_S), rules)
-    assert after == STATES[state]
-    assert [type(effect) for effect in effects] == [e.Say]
-
-
-def test_a_late_decision_leaves_the_proposal_its_whole_time():
-    proposed = replace(STATES["activated"], since_s=0.0)
-    decided_s = DECISION_LIMIT_S - 0.1
-    proposed, _ = step(proposed, e.Decided(decided_s, ID, "X+", "recognised X+"), Rules())
-
-    waiting, effects = step(proposed, e.Ticked(decided_s + PROPOSAL_LIMIT_S, ()), Rules())
-    stopping, _ = step(proposed, e.Ticked(decided_s + PROPOSAL_LIMIT_S + 0.01, ()), Rules())
-
-    assert (waiting.state, effects) == (S.ACTIVATED, ())
-    assert stopping.state is S.STOPPING
-
-
-def test_the_recogniser_has_always_answered_before_an_activation_is_given_up():
-    assert GIVE_UP_S + BUDGET_MOST_S + 0.1 < DECISION_LIMIT_S

@@ -7,7 +7,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from gestureapp.cell import events as e
-from gestureapp.cell.machine import MachineState, Rules, step
+from gestureapp.cell.machine import step
+from gestureapp.cell.machine_state import MachineState, Rules
 from gestureapp.cell.records import Record, Topic, fields_of
 from gestureapp.cell.snapshot import Blocker, CellState
 from gestureapp.cell.words import sentence

@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import pytest
 
-from gestureapp.cell.machine import MachineState
+from gestureapp.cell.machine_state import MachineState
 from gestureapp.cell.snapshot import Blocker, CellState
 from gestureapp.cell.words import sentence
 from gestureapp.config import DriveMode

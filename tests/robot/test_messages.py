@@ -46,6 +46,7 @@ ALL = [
     m.Arm(),
     m.Disarm(),
     m.Propose(3, Direction(2, -1, True), 4.5),
+    m.Propose(4, Direction(0, 1, False), 4.5, Caps(20.0, 10.0)),
     m.Stop(StopReason.STOP_PRESSED, "text\nwith a line \u00e9", 1.5),
     m.ServoOn(),
     m.ServoOff(),
