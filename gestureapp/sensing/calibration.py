@@ -38,14 +38,6 @@ NOMINAL = Calibration()
 _AXES = "XYZ"
 
 
-def calibrate(nominal_g: Vector, calibration: Calibration) -> Vector:
-    """Take a sensor's own errors out of a reading: matrix times (nominal - offset), in g."""
-    (x, y, z), (ox, oy, oz) = nominal_g, calibration.offset_g
-    x, y, z = x - ox, y - oy, z - oz
-    (xx, xy, xz), (yx, yy, yz), (zx, zy, zz) = calibration.matrix
-    return (xx * x + xy * y + xz * z, yx * x + yy * y + yz * z, zx * x + zy * y + zz * z)
-
-
 def accel_of(frame: Frame, protocol: Protocol, calibration: Calibration) -> Vector | Impossible:
     """The calibrated acceleration in a frame, in g; or why no sensor can have measured it.
 
@@ -57,4 +49,4 @@ def accel_of(frame: Frame, protocol: Protocol, calibration: Calibration) -> Vect
             shown = ",".join(f"{raw:g}" for raw in frame.raw).encode()[:FIRST_BYTES]
             reason = f"{value_g:.1f} g on {axis}, the sensor can give {protocol.limit_g:g} g"
             return Impossible(0, shown, reason)
-    return calibrate(nominal_g, calibration)
+    return calibration.applied(nominal_g)

@@ -7,7 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from gestureapp.cell import events as e
-from gestureapp.cell.machine import step
+from gestureapp.cell.machine import DECISION_LIMIT_S, step
 from gestureapp.cell.machine_state import MachineState, Rules
 from gestureapp.cell.records import Record, Topic, fields_of
 from gestureapp.cell.snapshot import Blocker, CellState
@@ -78,7 +78,7 @@ def a_day(desk) -> None:
     assert desk.run(0.5, S.ARMED)
     desk.left.take(ArmPosture.START, desk.now_s)
     assert desk.run(1.0, S.ACTIVATED)
-    assert desk.run(1.0, S.ARMED)
+    assert desk.run(DECISION_LIMIT_S, S.ARMED)
     desk.changes[Side.LEFT] = lambda _: None
     assert desk.run(1.0, S.STOPPED)
 

@@ -13,6 +13,7 @@ from gestureapp.robot.arm import ArmLimits
 from gestureapp.robot.gate import Limits
 from gestureapp.robot.obstacles import Column, KeepOut
 from gestureapp.robot.values import (
+    Caps,
     Direction,
     Pose,
     PoseIncrement,
