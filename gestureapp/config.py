@@ -46,7 +46,8 @@ class SiteSettings:
     """What the cell's integrator decides.
 
     Attributes:
-        drive_mode: What ends a move.
+        drive_mode: What ends a move. hold_to_run: the robot moves only while the left arm holds the
+            start posture. start_stop: it moves until the left arm takes the stop posture.
         trip_level_s: Left sensor silent longer than this stops the robot; 0.05 to 0.3, never off.
         control_limit_s: Control thread silent longer than this stops the robot.
         gui_limit_s: Window frozen longer than this stops the robot: STOP could not be pressed.

@@ -60,7 +60,7 @@ def test_the_default_text_explains_every_setting_with_unit_and_range():
     text = default_settings_text()
     assert "Allowed: 0.05 to" in text
     assert "Allowed: 1 to 250 mm/s." in text
-    assert 'One of: "hold_to_run", "start_stop".' in text
+    assert 'One of: "hold_to_run", "start_stop".' in text.replace("\n# ", " ")
     assert all(len(line) <= 100 for line in lines)
 
 

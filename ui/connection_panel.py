@@ -20,7 +20,7 @@ from ui.draft_bar import heading
 from ui.labels import plain
 from ui.marks import Level, Mark
 from ui.pages import scrolled
-from ui.settings_draft import NEEDS_PIN
+from ui.setting_values import why_not_text
 from ui.theme import LARGE_PX, TEXT_PX, sized
 
 WHAT_IT_DOES = "Connecting only reads: nothing moves before somebody arms."
@@ -71,9 +71,10 @@ class ConnectionPanel(QWidget):
             self._port.setText(used[1])
         self._allowed.setText(f"Allowed: {port.allowed}" if port.allowed else "")
         for widget in (self._host, self._port, self._connect):
-            widget.setEnabled(not host.is_locked and not host.fixed)
-        self._why_not.setText(host.fixed or (NEEDS_PIN if host.is_locked else ""))
-        self._why_not.setVisible(bool(self._why_not.text()))
+            widget.setEnabled(not why_not_text(host))
+        why_not = why_not_text(host)
+        self._why_not.setText(why_not)
+        self._why_not.setVisible(bool(why_not))
 
     def show_card(self, card: RobotCard) -> None:
         """Show another moment of the robot."""

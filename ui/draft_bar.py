@@ -54,7 +54,10 @@ class DraftBar(QFrame):
 
 
 class LockBar(QFrame):
-    """Whether settings that bear on motion can be changed, and the PIN that opens them."""
+    """Whether settings that bear on motion can be changed, and the PIN that opens them.
+
+    Hidden while there is no PIN.
+    """
 
     def __init__(self, controls: SetupControls, name: str, parent: QWidget | None = None) -> None:
         super().__init__(parent)
@@ -92,7 +95,7 @@ class LockBar(QFrame):
         for widget in (self._pin, self._open):
             widget.setVisible(is_closed)
         self._close.setVisible(lock.has_pin and lock.is_open)
-        self.setVisible(bool(lock.text) or lock.has_pin)
+        self.setVisible(lock.has_pin)
         text = lock.text
         if text != self._text.text():
             self._text.setText(text)

@@ -59,7 +59,7 @@ class FacingView(QWidget):
 
     def minimumSizeHint(self) -> QSize:
         """The letters can still be told apart."""
-        return QSize(220, 220)
+        return QSize(150, 130)
 
     def show_turn(self, turn_deg: float) -> None:
         """Draw another way."""

@@ -19,8 +19,8 @@ from ui.labels import plain
 from ui.pages import scrolled
 from ui.robot_view import FieldView
 from ui.setting_editor import SettingEditor
-from ui.setting_values import edited_robot
-from ui.settings_draft import NEEDS_PIN, SettingsDraft
+from ui.setting_values import edited_robot, why_not_text
+from ui.settings_draft import SettingsDraft
 from ui.theme import SMALL_PX, TEXT_PX, sized
 
 FIELD = (
@@ -188,7 +188,7 @@ class DriveForm(QWidget):
         turn = float(value) if isinstance(value, int | float) else 0.0
         self._view.show_turn(turn)
         self._words.setText(facing_text(turn))
-        why_not = row.fixed or (NEEDS_PIN if row.is_locked else "")
+        why_not = why_not_text(row)
         self._lock.setText(why_not)
         self._lock.setVisible(bool(why_not))
         for each, button in self._turns.items():

@@ -139,6 +139,7 @@ class HoldButton(QPushButton):
             self.update()
         if self.is_held:
             self.is_held = False
+            self.update()
             self.let_go.emit()
 
     def _advance(self) -> None:

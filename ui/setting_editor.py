@@ -16,8 +16,8 @@ from PySide6.QtWidgets import (
 from gestureapp.setup.values import SettingRow
 from ui.labels import plain
 from ui.marks import Level, Mark
-from ui.setting_values import BOX_FORM, OFF, ON, Kind, caption_of, kind_of
-from ui.settings_draft import NEEDS_PIN, SettingsDraft
+from ui.setting_values import BOX_FORM, NEEDS_PIN, OFF, ON, Kind, caption_of, kind_of, why_not_text
+from ui.settings_draft import SettingsDraft
 from ui.theme import SMALL_PX, TEXT_PX, colours_of
 
 Control = QLineEdit | QCheckBox | QComboBox | QPlainTextEdit
@@ -172,9 +172,7 @@ class SettingEditor(QWidget):
 
 def _note_of(row: SettingRow) -> str:
     """Why it cannot be changed, and what it may be."""
-    why_not = f"{row.fixed[:1].upper()}{row.fixed[1:]}." if row.fixed else ""
-    if row.is_locked and not why_not:
-        why_not = "Locked."
+    why_not = "Locked." if row.is_locked and not row.fixed else why_not_text(row)
     allowed = f"Allowed: {row.allowed}" if row.allowed and not row.choices else ""
     return f"{why_not} {allowed}".strip()
 

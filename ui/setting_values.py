@@ -9,6 +9,7 @@ from typing import Any
 from gestureapp.config import KeepOutSettings, RobotSettings
 from gestureapp.setup.values import SettingRow
 
+NEEDS_PIN = "Locked: needs the PIN."
 ON, OFF = "on", "off"
 """The words of a setting that is one or the other."""
 _APART = re.compile(r"[,;\s]+")
@@ -108,6 +109,13 @@ def typed_value(row: SettingRow, text: str) -> object:
             return [_box(line) for line in text.splitlines() if line.strip()]
         case _:
             return text.strip()
+
+
+def why_not_text(row: SettingRow) -> str:
+    """Why a setting cannot be changed now, as a sentence; empty when it can."""
+    if row.fixed:
+        return f"{row.fixed[:1].upper()}{row.fixed[1:].rstrip('.')}."
+    return NEEDS_PIN if row.is_locked else ""
 
 
 def matches(row: SettingRow, wanted: str) -> bool:

@@ -8,13 +8,10 @@ from PySide6.QtCore import QObject, Signal
 from gestureapp.setup.controls import SetupControls
 from gestureapp.setup.values import SettingRow
 from ui.background import Background
-from ui.setting_values import NotReadable, caption_of, typed_value, value_text
+from ui.setting_values import NEEDS_PIN, NotReadable, caption_of, typed_value, value_text
 
-APPLIED: Final = (
-    "Applied and kept in your settings file. What bears on motion is used once nothing may move."
-)
+APPLIED: Final = "Applied. What bears on motion is used once nothing may move."
 APPLYING: Final = "Being applied\u2026"
-NEEDS_PIN: Final = "Locked: needs the PIN."
 _SHOWN: Final = 3
 """Names told of changes; more are counted."""
 

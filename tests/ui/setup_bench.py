@@ -297,6 +297,8 @@ class FakeSetup:
 
     def set_pin(self, pin: str) -> str:
         self.calls.append(f"set_pin {pin}")
+        if not self.answer:
+            self.show(lock=LockView(bool(pin), is_open=True, text="" if pin else NO_PIN))
         return self.answer
 
     def people(self) -> tuple[PersonRow, ...]:

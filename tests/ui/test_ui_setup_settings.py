@@ -172,14 +172,20 @@ def type_pin(room, pin: str, again: str) -> None:
     room.press("setPin")
 
 
+def said(room) -> str:
+    room.look()
+    return room.text("pinSaid")
+
+
 def test_a_pin_is_set_when_it_was_typed_twice_alike(qtbot, room):
     type_pin(room, "4711", "4712")
     assert "different" in room.text("pinSaid")
     assert not room.setup.calls
     type_pin(room, "4711", "4711")
-    qtbot.waitUntil(lambda: room.text("pinSaid") == "The PIN is set.", timeout=5000)
+    qtbot.waitUntil(lambda: said(room) == "The PIN is set.", timeout=5000)
     assert room.setup.calls == ["set_pin 4711"]
     assert "no protection" in room.text("pinWorth")
+    room.look()
 
 
 def test_a_pin_that_is_refused_is_refused_in_words(qtbot, room):
