@@ -87,7 +87,7 @@ class GapHistogram(QWidget):
                 painter.drawText(above, Qt.AlignmentFlag.AlignCenter, str(count))
             if i % every == 0:
                 below = QRectF(slot.left() - width, area.bottom() + 2, 3 * width, _LABEL_PX)
-                painter.drawText(below, Qt.AlignmentFlag.AlignCenter, f"{end_s * 1e3:.0f}")
+                painter.drawText(below, Qt.AlignmentFlag.AlignCenter, _end_text(bars, i))
 
     def _draw_trip(self, painter: QPainter, area: QRectF, bars: _Bars, colours: Colours) -> None:
         """Between the classes on either side of the trip level."""
@@ -100,3 +100,11 @@ class GapHistogram(QWidget):
         words = f"trip level {ms_text(self._trip_s)} "
         room = QRectF(x - 206, 2, 200, _COUNT_PX)
         painter.drawText(room, Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter, words)
+
+
+def _end_text(bars: _Bars, i: int) -> str:
+    """The upper end of a class in ms; the last may have none."""
+    end_s = bars[i][0]
+    if math.isfinite(end_s):
+        return f"{end_s * 1e3:.0f}"
+    return f"> {bars[i - 1][0] * 1e3:.0f}" if i else "all"

@@ -46,14 +46,15 @@ class PosturesPanel(QFrame):
             is_left_alive: The left sensor sends.
         """
         self._is_on = view.is_on
-        self._sentence.show_text(postures_sentence(view, is_left_alive))
+        sentence = postures_sentence(view, is_left_alive)
+        self._sentence.show_text(sentence)
         is_stop_now = view.is_on and not view.is_stop_done
         is_start_now = view.is_on and view.is_stop_done and not view.is_start_done
         self._stop.show_state(_state(view.is_stop_done, is_stop_now), view.progress)
         self._start.show_state(_state(view.is_start_done, is_start_now), view.progress)
         for figure, text in zip(self._figures, posture_texts(view), strict=True):
             figure.show_value(text)
-        self._outcome.show_outcome(view.outcome, postures_kept(view))
+        self._outcome.show_outcome(view.outcome, postures_kept(view), sentence)
         word = "Stop recording" if view.is_on else "Record postures"
         if word != self._begin.text():
             self._begin.setText(word)

@@ -73,10 +73,17 @@ class OutcomeLine(QWidget):
         layout.addWidget(self._mark)
         layout.addWidget(self._text, 1)
 
-    def show_outcome(self, outcome: Outcome, before: str = "") -> None:
-        """Show how it ended, or ``before`` while it has not been run."""
+    def show_outcome(self, outcome: Outcome, before: str = "", above: str = "") -> None:
+        """Show how it ended.
+
+        Args:
+            outcome: The test's.
+            before: What is said while it has not been run.
+            above: What stands in large letters already; it is not said twice.
+        """
         self._mark.show_level(check_level(outcome.check))
-        text = f"{outcome.check.value}: {outcome.text}" if outcome.text else outcome.check.value
+        found = "" if outcome.text == above else outcome.text
+        text = f"{outcome.check.value}: {found}" if found else outcome.check.value
         if outcome.check is Check.NOT_RUN and before:
             text = before
         say(self._text, text)

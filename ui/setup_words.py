@@ -213,12 +213,12 @@ def calibrate_sentence(card: SensorCard, view: CalibrationView, level: LevelView
 
 
 def level_words(level: LevelView) -> Outcome:
-    """A level check's end with its figures."""
+    """A level check's end; its figures where it says nothing itself."""
     found = level.outcome
-    if math.isnan(level.off_deg) or found.check in (Check.NOT_RUN, Check.RUNNING):
+    if found.text or math.isnan(level.off_deg) or found.check in (Check.NOT_RUN, Check.RUNNING):
         return found
     figures = f"{level.off_deg:.1f}\u00b0 from level, {_mg_text(level.off_mg)} from 1 g"
-    return replace(found, text=f"{figures}. {found.text}" if found.text else figures)
+    return replace(found, text=figures)
 
 
 POSTURE_FIGURES = (

@@ -60,14 +60,15 @@ class SixPositionsPanel(QFrame):
         view = setup.calibration if is_own else CalibrationView(self.side)
         level = setup.level if setup.level.side is self.side else LevelView(self.side)
         self._is_on = view.is_on
-        self._sentence.show_text(calibrate_sentence(card, view, level))
+        sentence = calibrate_sentence(card, view, level)
+        self._sentence.show_text(sentence)
         shown = {each.position: each for each in view.positions}
         for position, tile in self._tiles.items():
             is_wanted = view.is_on and position is view.wanted
             tile.show_view(shown.get(position), is_wanted)
         for figure, text in zip(self._figures, residual_texts(view), strict=True):
             figure.show_value(text)
-        self._outcome.show_outcome(view.outcome, card.calibration)
+        self._outcome.show_outcome(view.outcome, card.calibration, sentence)
         self._show_level(card, level)
         self._show_buttons(card, level, setup.calibration.is_on)
 

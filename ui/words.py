@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 from datetime import datetime
 
+from gestureapp.cell.readiness import SETUP_BLOCKER
 from gestureapp.cell.snapshot import CellState, EventLine, RobotView, Snapshot
 from gestureapp.recognition.values import Recognition
 from gestureapp.robot.values import Direction, Pose, PoseIncrement
@@ -18,6 +19,8 @@ _DIRECTION_WORDS = {
     (2, 1): "up",
     (2, -1): "down",
 }
+_LOCKS = ("lock", SETUP_BLOCKER)
+"""Blockers that say which page locks arming."""
 _OLD_POSE_S = 1.0
 """The robot is asked many times a second; a position older than this is said to be old."""
 _LATE_SHARE = 0.5
@@ -108,7 +111,7 @@ def strip_line(snapshot: Snapshot) -> str:
     What locks arming stands before either.
     """
     line = _devices_line(snapshot)
-    lock = next((blocker.text for blocker in snapshot.blockers if blocker.id == "lock"), "")
+    lock = next((each.text for each in snapshot.blockers if each.id in _LOCKS), "")
     return f"{lock[0].upper()}{lock[1:]}: arming is locked   |   {line}" if lock else line
 
 

@@ -113,8 +113,9 @@ def test_the_level_check_shows_its_progress_and_its_figures(room):
     assert (bar.isVisible(), bar.value()) == (True, 60)
     end = Outcome(Check.FAILED, "Lay it on a level table.")
     room.show(level=LevelView(Side.LEFT, end, 1.0, 3.9, 12.0))
-    words = "failed: 3.9\u00b0 from level, 12 mg from 1 g. Lay it on a level table."
-    assert room.text("levelOutcome") == words
+    assert room.text("levelOutcome") == "failed: Lay it on a level table."
+    room.show(level=LevelView(Side.LEFT, Outcome(Check.PASSED), 1.0, 0.4, 3.2))
+    assert room.text("levelOutcome") == "passed: 0.4\u00b0 from level, 3.2 mg from 1 g"
     assert not bar.isVisible()
     room.press("calibrate_right")
     assert room.text("levelOutcome").startswith("level checked today")
@@ -131,6 +132,12 @@ def test_postures_are_recorded_one_after_the_other(room):
     assert room.widget("startPosture").accessibleName() == "start posture: hold still"
     room.press("beginPostures")
     assert room.setup.calls == ["begin_postures", "end_postures"]
+
+
+def test_a_sentence_is_not_said_twice(room):
+    room.press("calibratePostures")
+    room.show(postures=replace(RECORDING, outcome=Outcome(Check.RUNNING, "Hold START")))
+    assert room.text("posturesOutcome") == "running"
 
 
 def test_the_margin_is_shown_with_what_is_needed(room):

@@ -7,7 +7,7 @@ from PySide6.QtCore import Qt
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QAbstractButton, QApplication, QComboBox, QLabel, QPushButton
 
-from gestureapp.cell.snapshot import CellState
+from gestureapp.cell.snapshot import Blocker, CellState
 from gestureapp.sensing.values import LinkState, Side
 from gestureapp.setup.values import CalibrationView, Position, Remedy
 from tests.ui.setup_bench import SetupRoom, card, six
@@ -34,6 +34,14 @@ def test_arming_is_locked_for_as_long_as_the_setup_is_open(room):
     assert room.setup.calls == ["setup open"], "it is open already"
     room.press("navOperate")
     assert room.setup.calls == ["setup open", "setup closed"]
+
+
+def test_the_strip_says_that_arming_is_locked(room):
+    room.enter()
+    lock = Blocker("setup", "setup is open", "go back to Operate")
+    room.cell.shown = replace(room.cell.shown, blockers=(lock,), state=CellState.NOT_READY)
+    room.look()
+    assert room.text("stripLine").startswith("Setup is open: arming is locked")
 
 
 @pytest.mark.parametrize("state", CellState)
