@@ -44,12 +44,18 @@ def _show(options: argparse.Namespace) -> int:
 
 
 def _check(options: argparse.Namespace) -> int:
-    found = _layers(options).findings
-    for finding in found:
-        _write(str(finding))
-    if not found:
-        _write("nothing is wrong")
-    return 1 if found else 0
+    from gestureapp.cell.limits import checked_limits
+    from gestureapp.errors import ConfigError
+
+    layers = _layers(options)
+    lines = [str(finding) for finding in layers.findings]
+    try:
+        checked_limits(layers.settings)
+    except ConfigError as error:  # each fits its range, but they do not fit together
+        lines.append(str(error))
+    for line in lines or ["nothing is wrong"]:
+        _write(line)
+    return 1 if lines else 0
 
 
 def _path(options: argparse.Namespace) -> int:

@@ -5,6 +5,7 @@ before it takes the name: after a crash at any moment there is the old file or t
 """
 
 import datetime
+import re
 import time
 import tomllib
 from collections.abc import Mapping
@@ -117,7 +118,8 @@ def _keep(file: Path, content: bytes, wall_s: float) -> None:
     now = datetime.datetime.fromtimestamp(wall_s, datetime.UTC)
     stamp = f"{now:%Y%m%dT%H%M%S}.{now.microsecond:06d}Z"
     write_atomically(folder / f"{file.stem}-{stamp}{file.suffix}", content, mode_of(file))
-    kept = sorted(folder.glob(f"{file.stem}-*Z{file.suffix}"))
+    ours = re.compile(rf"{re.escape(file.stem)}-\d{{8}}T\d{{6}}\.\d{{6}}Z{re.escape(file.suffix)}")
+    kept = sorted(path for path in folder.iterdir() if ours.fullmatch(path.name))
     for oldest in kept[:-N_BACKUPS]:
         oldest.unlink(missing_ok=True)
 

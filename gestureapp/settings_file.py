@@ -54,6 +54,8 @@ __all__ = [
 
 SCHEMA_KEY: Final = "schema"
 _KEEP_OUTS: Final = "robot.keep_outs"
+DAMAGED_PIN: Final = "damaged"
+"""Stands for what is no hash."""
 _CORRECT: Final = "correct it, or take it out"
 
 
@@ -201,6 +203,8 @@ class _Layer:
                 self._report_unknown(key, key, known)
             elif not isinstance(table, dict):
                 self._report(key, "must be a table", f"write [{key}] on a line of its own")
+                if key == LOCK_TABLE:
+                    self._take_pin({PIN_KEY.partition(".")[2]: table})
             elif key == LOCK_TABLE:
                 self._take_pin(table)
             else:
@@ -246,7 +250,7 @@ class _Layer:
                 self._report(name, f"has no effect here: the PIN is that of {whose}", "take it out")
             else:
                 # What is no hash counts as a PIN that nobody knows, not as none.
-                text = raw if isinstance(raw, str) and raw else "damaged"
+                text = raw if isinstance(raw, str) and raw else DAMAGED_PIN
                 self.pin = PinEntry(text, replace(self._place, line=self._line(name)))
 
     def _keep_outs(

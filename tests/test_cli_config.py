@@ -69,6 +69,9 @@ def test_check_fails_when_anything_is_wrong_and_says_what(user: Path, capsys):
     user.write_text("schema = 1\n[robot]\nspeed_mm_s = 300\n")
     assert cli.main(["config", "check"]) == cli.FAILED
     assert capsys.readouterr().out.startswith(f"{user}, line 3: robot.speed_mm_s: 300")
+    user.write_text("schema = 1\n[joints]\ns_range_deg = [0, 1]\n")
+    assert cli.main(["config", "check"]) == cli.FAILED
+    assert "a range of a joint must be wider than its margins" in capsys.readouterr().out
     user.write_text("schema = \n")
     assert cli.main(["config", "check"]) == cli.FAILED
     assert "line 1: not TOML" in capsys.readouterr().err

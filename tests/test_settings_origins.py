@@ -6,7 +6,7 @@ import pytest
 
 from gestureapp.config import Settings
 from gestureapp.settings_check import named_values
-from gestureapp.settings_file import load_settings, read_layers
+from gestureapp.settings_file import DAMAGED_PIN, load_settings, read_layers
 
 
 @pytest.fixture
@@ -57,10 +57,12 @@ def test_the_sites_pin_holds_and_another_has_no_effect(layer):
     assert read_layers([user.parent / "absent.toml", user]).pin.pin_hash == "bbb"
 
 
-@pytest.mark.parametrize("wrong", ["pin_hash = 5", "pin_hash = ''", "pin_hash = []"])
+@pytest.mark.parametrize(
+    "wrong", ["[lock]\npin_hash = 5", "[lock]\npin_hash = ''", "lock.pin_hash = []", "lock = 3"]
+)
 def test_a_pin_that_is_none_counts_as_one_that_nobody_knows(layer, wrong):
-    layers = read_layers([layer(f"[lock]\n{wrong}")])
-    assert layers.pin.pin_hash == "damaged"
+    layers = read_layers([layer(wrong)])
+    assert layers.pin.pin_hash == DAMAGED_PIN
 
 
 def test_an_unknown_key_beside_the_pin_is_told_and_stops_nothing(layer):
