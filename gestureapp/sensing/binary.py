@@ -128,7 +128,8 @@ def _uncobs(coded: bytes) -> bytes | None:
     """Take the byte stuffing out of what stood between two zero bytes; None when it is broken.
 
     Source: S. Cheshire, M. Baker, Consistent Overhead Byte Stuffing, IEEE/ACM Transactions on
-    Networking 7 (2), 1999: each count says how far the next zero is, 255 that there is none.
+    Networking 7 (2), 1999: each count says how far the next zero is. Its count of 255, which stands
+    for 254 bytes without a zero, cannot be in a frame of ours: it is too short.
     """
     packet = bytearray()
     at = 0
@@ -139,7 +140,7 @@ def _uncobs(coded: bytes) -> bytes | None:
             return None
         packet += block
         at += count
-        if count < 0xFF and at < len(coded):
+        if at < len(coded):
             packet.append(0)
     return bytes(packet)
 

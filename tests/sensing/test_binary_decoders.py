@@ -121,6 +121,37 @@ def test_by_chance_a_right_checksum_makes_no_frame_without_a_header_behind_it():
     assert frames(decode("witmotion", b"\x01\x02" + chance + b"\x03" * 40)) == []
 
 
+def test_the_same_after_frames_that_were_good():
+    chance = bytes.fromhex("55 51 00 00 00 fc 00 08 c4 09 77")
+    data = stream("witmotion", 1, 3) + b"\x01" + chance + b"\x03" * 40
+    assert found(decode("witmotion", data)) == [1, 2, 3]
+
+
+@pytest.mark.parametrize(
+    ("kind", "is_ours"), [(0x4F, False), (0x50, True), (0x5F, True), (0x60, False)]
+)
+def test_the_witmotion_family_is_of_sixteen_kinds(kind: int, is_ours: bool):
+    frame = bytes([0x55, kind, *range(8)])
+    frame += bytes([sum(frame) % 256])
+    data = stream("witmotion", 1, 2) + frame + stream("witmotion", 3, 2)
+    assert bool(garbage(decode("witmotion", data))) is not is_ours
+    assert found(decode("witmotion", data)) == [1, 2, 3, 4]
+
+
+@pytest.mark.parametrize(("n_bytes", "is_told"), [(10, False), (11, True), (19, True)])
+def test_less_than_a_frame_at_the_begin_is_the_rest_of_one(n_bytes: int, is_told: bool):
+    events = decode("witmotion", b"\x01" * n_bytes + stream("witmotion", 1, 2))
+    assert [event.n_bytes for event in garbage(events)] == ([n_bytes] if is_told else [])
+
+
+def test_each_piece_of_garbage_has_a_reason_of_its_own():
+    wrong = bytes.fromhex("55 51 00 00 00 fc 00 08 c4 09 78")
+    good = [stream("witmotion", n, 2) for n in (1, 3, 5)]
+    events = decode("witmotion", good[0] + wrong + good[1] + b"\x01\x02" + good[2])
+    reasons = [event.reason for event in garbage(events)]
+    assert [reason.split()[0] for reason in reasons] == ["checksum", "expected"]
+
+
 def test_witmotion_counts_are_sixteen_g_at_full_scale():
     to_g = protocol("witmotion").to_nominal_g
     assert to_g((2048.0, -2048.0, -32768.0)) == (1.0, -1.0, -16.0)
@@ -208,6 +239,12 @@ def test_a_connection_that_ends_inside_a_frame_gives_garbage_not_a_sample():
         (told,) = garbage(decode(name, data[:-1]))
         assert "ended inside" in told.reason
         assert found(decode(name, data[:-1])) == [1, 2]
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_a_connection_that_ends_before_its_first_whole_frame_is_no_fault(name: str):
+    for n_bytes in range(len(sent(name, 1))):
+        assert decode(name, sent(name, 1)[-n_bytes - 1 : -1]) == []
 
 
 @pytest.mark.parametrize("name", NAMES)
