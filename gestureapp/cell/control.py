@@ -216,7 +216,7 @@ class Control:
         if taken.is_guardian_concerned:
             self._field, self._rules = field_of(settings), rules_of(settings)
             self._robot = RobotMemory(settings.robot)
-            self._guardian.renew()
+            self._guardian.renew(self._now_s)
             self._say(e.Say("other settings are in use"))
 
     def _judge_again(self) -> None:

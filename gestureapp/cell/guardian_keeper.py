@@ -71,6 +71,11 @@ class GuardianKeeper:
         """It is gone."""
         self._guardian = None
 
-    def renew(self) -> None:
-        """Let it go, and start another one at once: it takes other limits only at its start."""
-        self._guardian, self._tried_s = None, float("-inf")
+    def renew(self, now_s: float) -> None:
+        """Let it go; another one follows, as limits come only at the start.
+
+        The next start waits ``RESTART_S``: a guardian has ended 80 ms after the goodbye.
+        """
+        if self._guardian is not None:
+            self._guardian.dismiss()
+            self._guardian, self._tried_s = None, now_s

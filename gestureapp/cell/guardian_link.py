@@ -100,6 +100,16 @@ class GuardianLink:
         with self._window_lock:
             self._send_on(self._window, message)
 
+    def dismiss(self) -> None:
+        """Say goodbye: the guardian stops what may still move, then ends. Does not wait for it."""
+        if self._is_closing:
+            return
+        self._is_closing = True
+        self._send_on(self._control, m.Bye())
+        for sock in (self._control, self._window):
+            with contextlib.suppress(OSError):
+                sock.shutdown(socket.SHUT_WR)
+
     def close(self, wait_s: float = 3.0, *, is_killed: bool = False) -> bool:
         """Let the guardian go: it stops what may still move, then ends. Idempotent.
 
@@ -110,12 +120,7 @@ class GuardianLink:
         Returns:
             Whether the guardian has ended within the time.
         """
-        if not self._is_closing:
-            self._is_closing = True
-            self._send_on(self._control, m.Bye())
-            for sock in (self._control, self._window):
-                with contextlib.suppress(OSError):
-                    sock.shutdown(socket.SHUT_WR)
+        self.dismiss()
         has_ended = self._wait(wait_s, is_killed)
         self._reader.stop()
         for sock in (self._control, self._window):

@@ -29,6 +29,9 @@ class GuardianPort(Protocol):
     def send(self, message: m.ToGuardian) -> None:
         """Say something; never blocks for long, never raises."""
 
+    def dismiss(self) -> None:
+        """Let it go while nothing may move: it ends by itself. Does not wait for it."""
+
 
 @dataclass(frozen=True, slots=True)
 class SampleCame:

@@ -63,6 +63,7 @@ class ScriptedGuardian:
     heard: list[m.ToGuardian] = field(default_factory=list)
     beats: list[m.Beat] = field(default_factory=list)
     is_mute: bool = False
+    is_dismissed: bool = False
     refuses: str = ""
     confirms: bool = True
     moving_id: int | None = None
@@ -86,6 +87,9 @@ class ScriptedGuardian:
                 self._propose(message)
             case m.Stop():
                 self.stop(message.reason, message.text)
+
+    def dismiss(self) -> None:
+        self.is_dismissed = True
 
     def stop(self, reason: StopReason, text: str) -> None:
         """Stop, whoever asks: as the supervisor, permission first, then the reason."""
