@@ -72,14 +72,18 @@ def edited(file: Path, old: bytes | None, changes: Mapping[str, object]) -> byte
         for name, value in values.items():
             _put(document, name, value)
         new = tomlkit.dumps(document)
-    except (TOMLKitError, TypeError, AttributeError) as error:
-        raise _not_changed(file, str(error)) from error
+    except (
+        TOMLKitError,
+        TypeError,
+        AttributeError,
+    ) as error:  # a value stands where a table should
+        raise _not_changed(file) from error
     if "\r\n" in text:
         new = new.replace("\r\n", "\n").replace("\n", "\r\n")
     for name, value in values.items():
         _put_plain(wanted, name, value)
     if _meaning(new) != _without_empty(wanted):
-        raise _not_changed(file, "its tables are laid out in a way this cannot be put into")
+        raise _not_changed(file)
     return (_BOM if old is not None and old.startswith(_BOM) else b"") + new.encode()
 
 
@@ -207,6 +211,6 @@ def _without_empty(tables: dict[str, Any]) -> dict[str, Any]:
     return {name: table for name, table in tables.items() if table != {}}
 
 
-def _not_changed(file: Path, why: str) -> ConfigError:
-    reason = f"cannot be changed here: {why}; change it in an editor"
+def _not_changed(file: Path) -> ConfigError:
+    reason = "its tables are laid out in a way that this cannot be put into; use an editor"
     return ConfigError("settings file", str(file), reason)

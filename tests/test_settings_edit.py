@@ -130,6 +130,59 @@ def test_whatever_is_written_one_after_the_other_is_what_stands_there(changes):
         assert tables.get(table, {}).get(key) == value
 
 
+_LINES = st.sampled_from(
+    [
+        *(
+            "[robot]",
+            "[left]",
+            "[person]",
+            "[[robot.keep_outs]]",
+            "[ robot ]",
+            "[robot.x]",
+            "[[left]]",
+        ),
+        *("tool = 3", "  speed_mm_s = 50 # why", "name = 'a'", 'port = "x"', "# a comment", ""),
+        *("robot.tool = 1", "person = { name = 'Ana' }", '"robot".host = "x"', "a.b = 3"),
+        *(
+            "keep_outs = [{ name='a' },\n  # in\n { name='b' }]",
+            'name = """a\nb"""',
+            "keep_outs = []",
+        ),
+    ]
+)
+
+
+def _is_toml(text: str) -> bool:
+    try:
+        tomllib.loads(text)
+    except ValueError:
+        return False
+    return True
+
+
+@settings(max_examples=200, deadline=None)
+@given(
+    text=st.lists(_LINES, max_size=8).map("\n".join).filter(_is_toml),
+    changes=st.dictionaries(_NAMES, _VALUES, min_size=1, max_size=3),
+)
+def test_whatever_the_layout_only_what_was_asked_for_changes(text, changes):
+    wanted = tomllib.loads(text)
+    try:
+        after = tomllib.loads(edited(Path("any.toml"), text.encode(), changes).decode())
+    except ConfigError as error:
+        refused = str(error)
+    else:
+        refused = ""
+    if refused:
+        assert "laid out in a way that this cannot be put into; use an editor" in refused
+        return
+    for name, value in changes.items():
+        table, _, key = name.partition(".")
+        wanted.setdefault(table, {}).pop(key, None)
+        wanted[table] |= {} if value is None else {key: value}
+    assert {k: v for k, v in after.items() if v} == {k: v for k, v in wanted.items() if v}
+
+
 @pytest.mark.parametrize(
     "text", ["[robot\n", "schema = 1\n[robot]\nx = 1\nx = 2\n", "\0", "robot = 3"]
 )
