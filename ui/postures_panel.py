@@ -50,8 +50,8 @@ class PosturesPanel(QFrame):
         self._sentence.show_text(sentence)
         is_stop_now = view.is_on and not view.is_stop_done
         is_start_now = view.is_on and view.is_stop_done and not view.is_start_done
-        self._stop.show_state(_state(view.is_stop_done, is_stop_now), view.progress)
-        self._start.show_state(_state(view.is_start_done, is_start_now), view.progress)
+        self._stop.show_state(_state(view.is_stop_done, is_stop_now, view.is_on), view.progress)
+        self._start.show_state(_state(view.is_start_done, is_start_now, view.is_on), view.progress)
         for figure, text in zip(self._figures, posture_texts(view), strict=True):
             figure.show_value(text)
         self._outcome.show_outcome(view.outcome, postures_kept(view), sentence)
@@ -99,21 +99,23 @@ class PostureTile(QWidget):
         super().__init__()
         self.setObjectName(name)
         self._word = word
-        self._state, self._progress = PositionState.MISSING, 0.0
+        self._state: PositionState | None = PositionState.MISSING
+        self._progress = 0.0
         drawing = GestureDrawing(label, is_animated=False)
         layout = QHBoxLayout(self)
         layout.setContentsMargins(10, 10, _RING_PX + 60, 10)
         layout.addWidget(drawing)
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Expanding)
-        self.show_state(PositionState.MISSING, 1.0)
+        self.show_state(None, 0.0)
 
-    def show_state(self, state: PositionState, progress: float) -> None:
-        """Show how far it is."""
+    def show_state(self, state: PositionState | None, progress: float) -> None:
+        """Show how far it is; None while nothing is recorded nor being so."""
         progress = progress if state is PositionState.HOLD_STILL else 0.0
         if (state, progress) == (self._state, self._progress):
             return
         self._state, self._progress = state, progress
-        self.setAccessibleName(f"{self._word} posture: {state.value}")
+        state_words = "" if state is None else f": {state.value}"
+        self.setAccessibleName(f"{self._word} posture{state_words}")
         self.update()
 
     def minimumSizeHint(self) -> QSize:
@@ -141,6 +143,9 @@ class PostureTile(QWidget):
         painter.setPen(QColor(colours.text))
         line = QRectF(words.left(), words.center().y() - 74, words.width(), 34)
         painter.drawText(line, Qt.AlignmentFlag.AlignCenter, self._word)
+        if self._state is None:
+            painter.end()
+            return
         font.setPixelSize(LARGE_PX + 2)
         font.setBold(is_now)
         painter.setFont(font)
@@ -153,7 +158,9 @@ class PostureTile(QWidget):
         painter.end()
 
 
-def _state(is_done: bool, is_now: bool) -> PositionState:
+def _state(is_done: bool, is_now: bool, is_on: bool) -> PositionState | None:
     if is_done:
         return PositionState.DONE
-    return PositionState.HOLD_STILL if is_now else PositionState.MISSING
+    if is_now:
+        return PositionState.HOLD_STILL
+    return PositionState.MISSING if is_on else None

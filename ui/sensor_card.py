@@ -5,7 +5,7 @@ from PySide6.QtWidgets import QFrame, QHBoxLayout, QStackedWidget, QVBoxLayout, 
 
 from gestureapp.sensing.store import SampleStore
 from gestureapp.sensing.values import LinkState, Side
-from gestureapp.setup.values import LinkTestView, PortChoice, Remedy, SensorCard
+from gestureapp.setup.values import Check, LinkTestView, PortChoice, Remedy, SensorCard
 from ui.arm_plot import ArmPlot
 from ui.labels import plain
 from ui.marks import Level, Mark
@@ -80,8 +80,9 @@ class SensorCardView(QFrame):
 
     def show_link_test(self, test: LinkTestView, is_own: bool) -> None:
         """Show how this sensor's last link test ended."""
-        self._tested.setVisible(is_own)
-        if is_own:
+        is_run = is_own and test.outcome.check is not Check.NOT_RUN
+        self._tested.setVisible(is_run)
+        if is_run:
             self._tested.show_outcome(test.outcome)
 
     def _show_problem(self, card: SensorCard) -> None:

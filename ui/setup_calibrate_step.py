@@ -43,7 +43,7 @@ class CalibrateStep(QWidget):
         self._snapshot = setup
         self._follow(setup)
         for card in (setup.left, setup.right):
-            self._sides[card.side].show_state(*sensor_task(card))
+            self._sides[card.side].show_state(*sensor_task(card, setup.calibration))
         postures = setup.postures
         self._postures_button.show_state(
             posture_level(postures), posture_problem(postures) or postures_kept(postures)

@@ -110,7 +110,7 @@ class SetupSensorsStep(QWidget):
 
     def _act(self, side: Side, act: Remedy) -> None:
         match act:
-            case Remedy.CALIBRATE | Remedy.CHECK_LEVEL:
+            case Remedy.CALIBRATE:
                 self.calibration_wanted.emit(side)
             case Remedy.SWAP:
                 self._setup.swap_sensors()

@@ -265,8 +265,10 @@ def posture_level(view: PosturesView) -> Level:
     return Level.ATTENTION if is_bad else Level.OK
 
 
-def sensor_task(card: SensorCard) -> tuple[Level, str]:
+def sensor_task(card: SensorCard, under_way: CalibrationView) -> tuple[Level, str]:
     """How the calibration of a sensor stands: its mark, and in words."""
+    if under_way.is_on and under_way.side is card.side:
+        return Level.BUSY, "being calibrated"
     if card.problem:
         return Level.ATTENTION, card.problem
     return Level.OK, card.calibration

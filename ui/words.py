@@ -3,8 +3,7 @@
 from dataclasses import dataclass
 from datetime import datetime
 
-from gestureapp.cell.readiness import SETUP_BLOCKER
-from gestureapp.cell.snapshot import CellState, EventLine, RobotView, Snapshot
+from gestureapp.cell.snapshot import SETUP_BLOCKER, CellState, EventLine, RobotView, Snapshot
 from gestureapp.recognition.values import Recognition
 from gestureapp.robot.values import Direction, Pose, PoseIncrement
 from gestureapp.sensing.values import LinkState, StreamHealth

@@ -19,7 +19,7 @@ from gestureapp.sensing.calibration import NOMINAL, Calibration
 from gestureapp.sensing.port_list import SystemPort
 from gestureapp.sensing.values import LinkState, Side, StreamHealth
 from gestureapp.setup.link_test import link_problem
-from gestureapp.setup.values import LinkTestView, SensorCard
+from gestureapp.setup.values import LinkTestView, Remedy, SensorCard
 
 IDENTITY_WITHIN_S: Final = 1.5
 """A sensor that says who it is does so once a second."""
@@ -79,6 +79,7 @@ class ArmSensor:
         raw: While set, its samples are not corrected at all, or only with this: it is measured.
         problem: Why it must not be armed with, as told to the cell last.
         remedy: What to do about that.
+        act: The button that does it.
     """
 
     def __init__(self, side: Side, cell: CellControls, data: Path) -> None:
@@ -88,6 +89,7 @@ class ArmSensor:
         self.trouble = ""
         self.raw: Calibration | None = None
         self.problem, self.remedy = _CHOOSE
+        self.act = Remedy.FIND
         self._told: tuple[str, str] | None = None
         self._used = NOMINAL
         self._port = ""
@@ -125,7 +127,7 @@ class ArmSensor:
         if used != self._used:
             self._used = used
             self._cell.use_calibration(self.side, used)
-        self.problem, self.remedy = self._judged(wall_s, swapped)
+        self.act, (self.problem, self.remedy) = self._judged(wall_s, swapped)
         if self._told != (self.problem, self.remedy):
             self._told = (self.problem, self.remedy)
             self._cell.judge_sensor(self.side, self.problem, self.remedy)
@@ -169,6 +171,7 @@ class ArmSensor:
             level=level_words(self.record, wall_s),
             problem=self.problem,
             remedy=self.remedy,
+            act=self.act,
         )
 
     def _follow(self, now_s: float, health: StreamHealth) -> None:
@@ -184,22 +187,25 @@ class ArmSensor:
         since_s = self._receiving_s
         return since_s is None or now_s - since_s < IDENTITY_WITHIN_S
 
-    def _judged(self, wall_s: float, swapped: tuple[str, str]) -> tuple[str, str]:
+    def _judged(self, wall_s: float, swapped: tuple[str, str]) -> tuple[Remedy, tuple[str, str]]:
+        """The button that helps; what is wrong, and the remedy in words."""
         site: SiteSettings = self._cell.settings.site
         if not self.settings.port:
-            return _CHOOSE
+            return Remedy.FIND, _CHOOSE
         if self.raw is not None:
-            return "it is being calibrated", "finish it, or end it: Setup, Calibrate"
+            words = ("it is being calibrated", "finish it, or end it: Setup, Calibrate")
+            return Remedy.CALIBRATE, words
         if swapped[0]:
-            return swapped
+            return Remedy.SWAP, swapped
         if self.trouble:
             cause, _, remedy = self.trouble.rpartition("; ")
-            return cause, remedy
+            return Remedy.CALIBRATE, (cause, remedy)
         found = judge_record(self.record, wall_s, site)
         if found[0]:
-            return found
+            return Remedy.CALIBRATE, found
         lowest_s = self.record.link.lowest_trip_s if self.record.link else math.nan
-        return link_problem(lowest_s, site.trip_level_s)
+        found = link_problem(lowest_s, site.trip_level_s)
+        return (Remedy.TEST_LINK if found[0] else Remedy.NONE), found
 
 
 def calibration_words(record: SensorRecord, wall_s: float) -> str:

@@ -56,8 +56,7 @@ class Remedy(Enum):
     """What a window can do about a problem at one press; the value is the word on the button."""
 
     NONE = ""
-    CALIBRATE = "Calibrate"
-    CHECK_LEVEL = "Check level"
+    CALIBRATE = "Go to Calibrate"
     SWAP = "Swap sensors"
     TEST_LINK = "Test link"
     FIND = "Find sensors"

@@ -97,6 +97,11 @@ def test_what_is_left_before_and_after_is_shown_with_the_verdict(room):
     assert room.text("calibrateBefore") == "\u2013", "these are the other sensor's"
 
 
+def test_a_sensor_being_calibrated_is_under_way_and_no_problem(room):
+    room.show(left=card(Side.LEFT, problem="it is being calibrated"), calibration=UNDER_WAY)
+    assert room.button("calibrate_left").state == "being calibrated"
+
+
 def test_a_sensor_that_does_not_send_cannot_be_calibrated(room):
     room.show(left=card(Side.LEFT, LinkState.NO_DATA))
     assert room.text("calibrateSentence").startswith("No data from the left arm's sensor")
