@@ -16,17 +16,19 @@ _MAX_TIMES = 4096
 class RateMeter:
     """Counts what came within the last ``RATE_SPAN_S``. Amortised O(1). Owned by one thread.
 
-    What a radio gives in one burst arrived at one time: the times between are 0, and jitter.
+    What a radio gives in one burst, received at one time, is one arrival.
     """
 
     def __init__(self) -> None:
         self._times: deque[float] = deque()
-        self._sum_squares_s2 = 0.0  # of the times between neighbours in the deque
+        self._n_arrivals = 0  # different times in the deque
+        self._sum_squares_s2 = 0.0  # of the times between them
         self._first_s: float | None = None
 
     def restart(self) -> None:
         """Measure from the next sample on, as after a new connection."""
         self._times.clear()
+        self._n_arrivals = 0
         self._sum_squares_s2 = 0.0
         self._first_s = None
 
@@ -34,6 +36,8 @@ class RateMeter:
         """A sample was received at ``t_s``; times must not decrease."""
         if self._first_s is None:
             self._first_s = t_s
+        if not self._times or t_s > self._times[-1]:
+            self._n_arrivals += 1
         if self._times:
             self._sum_squares_s2 += (t_s - self._times[-1]) ** 2
         self._times.append(t_s)
@@ -51,11 +55,11 @@ class RateMeter:
         return len(self._times) / RATE_SPAN_S
 
     def jitter_s(self, now_s: float) -> float:
-        """Standard deviation of the times between samples of the last span; 0 while unknown."""
+        """Standard deviation of the times between arrivals of the last span; 0 while unknown."""
         if not self.is_measured(now_s):
             return 0.0
         self._forget(now_s)
-        n = len(self._times) - 1
+        n = self._n_arrivals - 1
         if n < 2:
             return 0.0
         mean_s = (self._times[-1] - self._times[0]) / n
@@ -65,6 +69,8 @@ class RateMeter:
         times = self._times
         while times and (times[0] <= now_s - RATE_SPAN_S or len(times) > _MAX_TIMES):
             gone_s = times.popleft()
+            if not times or times[0] > gone_s:
+                self._n_arrivals -= 1
             if times:
                 self._sum_squares_s2 -= (times[0] - gone_s) ** 2
         if len(times) < 2:

@@ -142,7 +142,8 @@ class StreamHealth:
         n_samples: Valid samples since the start.
         n_bad: Unreadable lines and impossible values since the start.
         n_lost: Frames missing by the running number since the start.
-        jitter_s: Standard deviation of the times between two arrivals, over the last two seconds.
+        jitter_s: Standard deviation of the times between two arrivals, over the last two seconds; a
+            burst that was received at one time is one arrival.
         identity: What the sensor calls itself; empty when it does not.
         battery_percent: What it says of its battery, 0 to 100; None when it says nothing.
         bad_bytes: The newest bytes that were no frame, as a person can read them; empty unless
