@@ -178,8 +178,7 @@ class SensorEmulator:
             return due_s
         sent = self._model.tick(now_s)
         period_s = self._model.period_s
-        for line in self._radio.carry(now_s, sent, period_s):
-            self._stream.send(line)
+        self._stream.send(self._radio.carry(now_s, sent, period_s))
         self._plug()
         missed = int((now_s - due_s) / period_s)
         self._stream.n_overruns += missed

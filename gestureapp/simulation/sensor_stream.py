@@ -4,6 +4,7 @@ import contextlib
 import selectors
 import socket
 from collections import deque
+from collections.abc import Sequence
 
 from gestureapp.clock import Clock
 from gestureapp.simulation.listening import accepted, bind, listen, received, written
@@ -67,8 +68,8 @@ class StreamPort:
             self._listener = bind(self._sensor, self._host, self.port)
         self._is_plugged = is_plugged
 
-    def send(self, line: Emission) -> None:
-        """Write a line, or drop it when the client does not read.
+    def send(self, lines: Sequence[Emission]) -> None:
+        """Write lines as one burst, or drop those for which the client leaves no room.
 
         Only the end of a line that the operating system took in part is kept, so that a reader that
         wakes up finds whole lines.
@@ -77,14 +78,16 @@ class StreamPort:
             return
         self._rest = self._rest[self._write(self._rest) :]
         sent_s = self._clock()
-        n = 0 if self._rest else self._write(line.data)
-        if n == 0:
-            self._n_dropped += 1
-            return
-        self._rest = line.data[n:]
-        self._n_sent += 1
-        if not self._rest:
-            self._log.append(SentLine(sent_s, line.counter, line.accel_g))
+        n = 0 if self._rest else self._write(b"".join(line.data for line in lines))
+        for line in lines:
+            if n <= 0:
+                self._n_dropped += 1
+                continue
+            self._rest = line.data[n:]
+            n -= len(line.data)
+            self._n_sent += 1
+            if not self._rest:
+                self._log.append(SentLine(sent_s, line.counter, line.accel_g))
 
     def close(self) -> None:
         """Close everything. Idempotent."""
