@@ -60,7 +60,10 @@ def scrolled(layout: QLayout, name: str, title: str) -> QScrollArea:
     """
     content = QWidget()
     content.setLayout(layout)
-    return _area(content, name, title)
+    area = _area(content, name, title)
+    area.viewport().setAutoFillBackground(False)  # the ground of what it stands on
+    content.setAutoFillBackground(False)
+    return area
 
 
 def _area(content: QWidget, name: str, title: str) -> QScrollArea:

@@ -293,7 +293,7 @@ class FakeSetup:
 
     def close_lock(self) -> None:
         self.calls.append("close_lock")
-        self.show(lock=LockView(has_pin=True, is_open=False))
+        self.show(lock=LockView(True, False, "Settings that bear on motion are locked."))
 
     def set_pin(self, pin: str) -> str:
         self.calls.append(f"set_pin {pin}")

@@ -5,12 +5,23 @@ from dataclasses import replace
 import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QLineEdit, QPlainTextEdit, QTabWidget
+from PySide6.QtWidgets import (
+    QAbstractButton,
+    QApplication,
+    QComboBox,
+    QLineEdit,
+    QPlainTextEdit,
+    QStackedWidget,
+    QTabBar,
+    QTreeWidget,
+)
 
 from gestureapp.setup.values import (
     Check,
+    Handedness,
     LockView,
     Outcome,
+    PersonRow,
     RobotCard,
     RobotRow,
     StopTestPhase,
@@ -37,7 +48,7 @@ def room(qtbot, cell):
 
 
 def open_tab(room, number: int) -> None:
-    bar = room.window.findChild(QTabWidget, "robotTabs").tabBar()
+    bar = room.window.findChild(QTabBar, "robotTabs")
     QTest.mouseClick(bar, Qt.MouseButton.LeftButton, pos=bar.tabRect(number).center())
     room.look()
 
@@ -277,3 +288,67 @@ def test_nothing_is_wider_than_the_screen(room, number, size):
     assert area.verticalScrollBar().maximum() == 0
     stop = room.button("stopButton")
     assert stop.visibleRegion().boundingRect() == stop.rect()
+
+
+def reached_by_tab(room) -> list[str]:
+    """Names of what the keyboard reaches, in its order."""
+    room.window.activateWindow()
+    assert QTest.qWaitForWindowActive(room.window, 5000)
+    reached: list[str] = []
+    for _ in range(80):
+        QTest.keyClick(QApplication.focusWidget() or room.window, Qt.Key.Key_Tab)
+        reached.append(QApplication.focusWidget().objectName())
+    return reached
+
+
+def wanted_in_step(room) -> set[str]:
+    """Names of what can be used in the step in sight."""
+    kinds = (QAbstractButton, QLineEdit, QPlainTextEdit, QComboBox, QTreeWidget)
+    step = room.window.findChild(QStackedWidget, "setupSteps").currentWidget()
+    found = [widget for kind in kinds for widget in step.findChildren(kind)]
+    can_be_used = [w for w in found if w.isVisible() and w.isEnabled() and w.focusPolicy()]
+    return {w.objectName() for w in can_be_used if w.objectName() and w.objectName()[:3] != "qt_"}
+
+
+@pytest.mark.parametrize("number", range(4))
+def test_each_part_is_reached_by_keyboard(room, number):
+    open_tab(room, number)
+    reached, wanted = reached_by_tab(room), wanted_in_step(room)
+    directions = {f"stopTest_{label}" for label in ("X+", "X-", "Y+", "Y-", "Z+", "Z-")}
+    turns = {"faces_0", "faces_90", "faces_180", "faces_-90"}
+    one_of_each = directions | turns  # of an exclusive group the chosen one; arrows do the rest
+    assert wanted - one_of_each <= set(reached)
+    assert not wanted & directions or directions & set(reached)
+    assert not wanted & turns or turns & set(reached)
+    assert "robotTabs" in reached
+
+
+@pytest.mark.parametrize("step", ["Settings", "People"])
+def test_the_other_steps_are_reached_by_keyboard(room, step):
+    room.setup.folk = (PersonRow("Ana", False, Handedness.RIGHT, 3, "", ""),)
+    room.press(f"setupStep{step}")
+    reached, wanted = reached_by_tab(room), wanted_in_step(room)
+    assert wanted - {"person0Left"} <= set(reached)
+
+
+def test_the_tabs_are_changed_with_the_arrows(room):
+    tabs = room.window.findChild(QTabBar, "robotTabs")
+    tabs.setFocus()
+    QTest.keyClick(tabs, Qt.Key.Key_Right)
+    room.look()
+    assert room.widget("fieldForm").isVisible()
+
+
+@pytest.mark.parametrize("step", ["Robot", "Settings", "People"])
+def test_everything_that_can_be_used_has_names(room, step):
+    room.setup.folk = (PersonRow("Ana", False, Handedness.RIGHT, 3, "", ""),)
+    room.press(f"setupStep{step}")
+    for number in range(4) if step == "Robot" else (0,):
+        if step == "Robot":
+            open_tab(room, number)
+        stack = room.window.findChild(QStackedWidget, "setupSteps").currentWidget()
+        for kind in (QAbstractButton, QLineEdit, QPlainTextEdit, QComboBox):
+            for widget in stack.findChildren(kind):
+                if widget.isVisible() and widget.focusPolicy() is not Qt.FocusPolicy.NoFocus:
+                    assert widget.objectName(), widget
+                    assert widget.accessibleName() or widget.text(), widget.objectName()
