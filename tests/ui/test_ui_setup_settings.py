@@ -201,8 +201,15 @@ def test_the_pin_is_taken_away_only_while_it_was_given(qtbot, room):
     room.show(lock=LockView(True, True, "open"))
     room.press("clearPin")
     qtbot.waitUntil(lambda: room.setup.calls == ["set_pin "], timeout=5000)
+    qtbot.waitUntil(lambda: said(room) == "There is no PIN any more.", timeout=5000)
+    assert not room.button("settingsLockClose").isVisible()
+
+
+def test_what_was_opened_can_be_locked_again(room):
+    room.show(lock=LockView(True, True, "Open for 10 more minutes."))
+    assert room.text("settingsLockText") == "Open for 10 more minutes."
     room.press("settingsLockClose")
-    assert room.setup.calls[-1] == "close_lock"
+    assert room.setup.calls == ["close_lock"]
 
 
 def test_what_was_typed_in_one_step_waits_there(room):
