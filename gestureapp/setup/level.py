@@ -102,7 +102,7 @@ class LevelCheck:
     def _why_nothing(self, still: Still | None) -> str:
         if self._stillness.is_silent:
             return "No samples came from the sensor: switch it on, or see Sensors; then check anew."
-        so_far = still or self._stillness.so_far
+        so_far = still if still is not None else self._stillness.so_far
         if so_far is not None and so_far.is_frozen:
             return "The readings do not change at all: the sensor is frozen. Restart it."
         return "It never lay still for 2 s: lay it down, let go, and check anew."

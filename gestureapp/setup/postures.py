@@ -46,7 +46,7 @@ class PostureRecorder:
 
     def __init__(self, person: str, site: SiteSettings) -> None:
         self._site = site
-        self._stillness = Stillness(HOLD_S, STILL_WITHIN_G)
+        self._stillness = Stillness(HOLD_S, STILL_WITHIN_G, may_sway=True)
         self._began_s = math.nan
         self._stop: Vector | None = None
         self._postures: LeftPostures | None = None

@@ -15,7 +15,7 @@ from gestureapp.recording.sensor_records import SensorRecord
 from gestureapp.sensing.values import Side
 from gestureapp.setup.fit import UP, Fit, fit_calibration, words_of
 from gestureapp.setup.stillness import Still, Stillness
-from gestureapp.setup.stuck import AxisSpans, clipped_axis
+from gestureapp.setup.stuck import AxisSpans, clipped_axis, shaky_position
 from gestureapp.setup.values import (
     CalibrationView,
     Check,
@@ -65,6 +65,7 @@ class SixPositions:
     def __init__(self, side: Side) -> None:
         self._stillness = Stillness(HOLD_S, STILL_WITHIN_G)
         self._taken: dict[Position, Still] = {}
+        self._doubted: set[Position] = set()
         self._spans = AxisSpans()
         self._told = ""
         self._is_refused = False
@@ -126,6 +127,7 @@ class SixPositions:
         if still is not None:
             self._take(still)
         self._tell(still)
+        self._doubt()
         if len(self._taken) == len(Position):
             self._finish()
         else:
@@ -176,12 +178,23 @@ class SixPositions:
             self._lain, self._is_refused = None, False
         if self._now_s - self._restless_s > RESTLESS_S:
             self._told = _restless(stillness.noise_g)
+        if stillness.sways:
+            self._told = "It sways as if it were worn or held: lay it down and let go."
         lain_s = self._now_s - self._lain_s
         if self._lain is not None and lain_s > UNMOVED_S:
             self._told = (
                 f"It has lain like this for {lain_s:.0f} s. If you have turned it, it does not "
                 "feel that: restart the sensor, or use another."
             )
+
+    def _doubt(self) -> None:
+        """Ask once more for a position that seems to have been none: as on an arm. Only once."""
+        shaky = shaky_position(self._taken)
+        if shaky is not None and shaky not in self._doubted:
+            self._doubted.add(shaky)
+            del self._taken[shaky]
+            self._lain = None
+            self._told = f"With {words_of(shaky)} it was not as still as otherwise: once more."
 
     def _finish(self) -> None:
         taken = self._taken
@@ -217,7 +230,7 @@ class SixPositions:
     def _lying(self) -> Position | None:
         """The missing position that it seems to lie in now; None for none, or one not taken."""
         so_far = self._stillness.so_far
-        if so_far is None or self._is_refused:
+        if so_far is None or self._is_refused or self._stillness.sways:
             return None
         position, off_deg = nearest(so_far)
         is_taken = position in self._taken or off_deg > TILT_LIMIT_DEG

@@ -1,5 +1,7 @@
-"""Axes that do not do what gravity asks of them. Pure."""
+"""Axes that do not do what gravity asks of them, and positions that were none. Pure."""
 
+import math
+import statistics
 from collections.abc import Mapping
 from typing import Final
 
@@ -18,6 +20,12 @@ _TURNED_SPAN_G: Final = 0.7
 """another has moved by so much: it was turned far enough for every axis to follow."""
 _LIVELY: Final = 4
 """An axis that shows so many values at rest elsewhere cannot show a single one in its own."""
+
+
+_SHAKY: Final = 1.4
+"""Lying, the noise of one position is within a third of another's; on an arm it is half as much
+again and more."""
+_SHAKY_G: Final = 0.001
 
 
 class AxisSpans:
@@ -54,3 +62,14 @@ def clipped_axis(taken: Mapping[Position, Still]) -> str:
         if along and across and min(along) == 1 and min(across) >= _LIVELY:
             return name
     return ""
+
+
+def shaky_position(taken: Mapping[Position, Still]) -> Position | None:
+    """A position that is noisier than the others: the sensor was worn or touched; None for none."""
+    noise_g = {position: math.hypot(*still.noise_g) for position, still in taken.items()}
+    if len(noise_g) < len(UP):
+        return None
+    worst = max(noise_g, key=lambda position: noise_g[position])
+    usual_g = statistics.median(noise_g[position] for position in noise_g if position is not worst)
+    is_shaky = noise_g[worst] > max(_SHAKY * usual_g, usual_g + _SHAKY_G)
+    return worst if is_shaky else None

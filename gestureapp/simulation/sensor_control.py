@@ -4,6 +4,7 @@
                  "hold_s":H, "back_s":B         also: hold the end so long, go back in that time
     {"do":"rest","at_s":T}                      right arm returns to rest; left arm to stop
     {"do":"take","posture":"start"|"stop","at_s":T}                      left arm
+    {"do":"lie","position":"z-up","askew_deg":D,"at_s":T}   laid on a table: x, y or z, up or down
     {"do":"fault","kind":"none"|"silent"|"frozen"|"garbage"|"truncated"|"spike"|"slow"|"unplugged"
                          |"stall"|"jump", "seconds":S, "counts_on":bool, "spike_g":G,
                          "rate_hz":R, "jump":n, "burst":bool}
@@ -19,6 +20,7 @@ from dataclasses import dataclass
 
 from gestureapp.gestures import LABELS
 from gestureapp.sensing.values import ArmPosture, Side
+from gestureapp.simulation.laid import LYING
 from gestureapp.simulation.sensor_model import (
     JUMP,
     RATE_HZ,
@@ -140,6 +142,14 @@ def _take(model: SensorModel, command: Mapping[str, object], now_s: float, _: ob
     return _schedule(model, ArmAction(Verb.TAKE, posture), command, now_s)
 
 
+def _lie(model: SensorModel, command: Mapping[str, object], now_s: float, _: object) -> Answer:
+    position = _word(command, "position")
+    if position not in LYING:
+        raise _CommandError(f"no position {position!r}: one of {', '.join(LYING)}")
+    askew_deg = _real(command, "askew_deg", 0.0, -45.0, 45.0)
+    return _schedule(model, ArmAction(Verb.LIE, position, askew_deg=askew_deg), command, now_s)
+
+
 def _fault(model: SensorModel, command: Mapping[str, object], now_s: float, _: object) -> Answer:
     word = _word(command, "kind")
     try:
@@ -199,6 +209,7 @@ _VERBS: dict[str, Callable[[SensorModel, Mapping[str, object], float, StreamReco
     "perform": _perform,
     "rest": _rest,
     "take": _take,
+    "lie": _lie,
     "fault": _fault,
     "log": _log,
     "state": _state,

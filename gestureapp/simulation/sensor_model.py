@@ -42,6 +42,8 @@ class Verb(Enum):
     PERFORM = "perform"
     REST = "rest"
     TAKE = "take"
+    LIE = "lie"
+    """The sensor is taken off and laid on a table; it is worn again with the next action."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -50,15 +52,17 @@ class ArmAction:
 
     Attributes:
         verb: What.
-        what: A gesture's label or a posture's name; empty for rest.
+        what: A gesture's label, a posture's name or how the sensor lies; empty for rest.
         hold_s: How long the end of a gesture is held; None is as usual.
         back_s: Duration of the way back from it; None is as usual.
+        askew_deg: How far a sensor that is laid down tilts.
     """
 
     verb: Verb
     what: str = ""
     hold_s: float | None = None
     back_s: float | None = None
+    askew_deg: float = 0.0
 
 
 class Wearer(Protocol):

@@ -214,3 +214,27 @@ def test_whatever_comes_it_goes_on_and_never_passes_by_chance(values, chunk):
     view = fed(machine, rows, chunk)
     assert view.outcome.check is Check.RUNNING
     assert view.sentence
+
+
+def test_a_sensor_that_is_still_worn_is_not_taken_for_one_that_lies():
+    sensor, machine = Lying(noise_g=0.005), SixPositions(Side.LEFT)
+    seconds = np.arange(1000) / 100.0
+    sway = 0.006 * np.sin(2 * np.pi * 0.4 * seconds)
+    truth = np.column_stack([sway, -sway, np.ones(1000)])
+    view = fed(machine, sensor.reads(truth))
+    assert view.wanted is P.Z_UP
+    assert view.sentence.startswith("It sways as if it were worn or held: lay it down")
+
+
+def test_a_position_that_was_taken_on_the_arm_is_asked_for_once_more_and_only_once():
+    sensor, machine = Lying(), SixPositions(Side.LEFT)
+    sensor.noise_g = 0.006
+    laid(machine, sensor, P.Z_UP)
+    sensor.noise_g = 0.003
+    for position in ALL[1:]:
+        view = laid(machine, sensor, position)
+    assert (view.is_on, view.wanted) == (True, P.Z_UP)
+    assert view.sentence.startswith("With Z up it was not as still as otherwise: once more.")
+    sensor.noise_g = 0.006
+    view = laid(machine, sensor, P.Z_UP)
+    assert view.outcome.check is Check.PASSED
