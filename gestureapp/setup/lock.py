@@ -25,7 +25,7 @@ WHAT_FOR: Final = (
     "settings file can do without it."
 )
 NO_PIN: Final = f"No PIN is set: everybody may change everything here. {WHAT_FOR}"
-_CLOSED: Final = f"Settings that bear on motion are locked. {WHAT_FOR}"
+_CLOSED: Final = "Settings that bear on motion are locked: give the PIN."
 _DAMAGED: Final = "The PIN in {where} cannot be read: take [lock] out of that file to have none."
 
 _KIND: Final = "scrypt"
@@ -154,8 +154,8 @@ class Lock:
         if self.is_open:
             left_min = math.ceil((self._open_until_s - now_s) / 60)
             until = f"Open for {left_min} more minute{'s' if left_min > 1 else ''}."
-            return f"{self._said} {until} {WHAT_FOR}".lstrip()
+            return f"{self._said} {until}".lstrip()
         if now_s < self._wait_until_s:
             left_s = math.ceil(self._wait_until_s - now_s)
-            return f"{self._said} Try again in {left_s} s."
+            return f"{self._said} Try again in {left_s} s.".lstrip()
         return f"{self._said} {_CLOSED}".lstrip()
