@@ -7,7 +7,7 @@ from gestureapp.sensing.store import SampleStore
 from gestureapp.sensing.values import LinkState, Side
 from gestureapp.setup.values import Check, LinkTestView, PortChoice, Remedy, SensorCard
 from ui.arm_plot import ArmPlot
-from ui.labels import plain
+from ui.labels import ElidedLabel, plain
 from ui.marks import Level, Mark
 from ui.operate_page import framed
 from ui.pages import scrolled
@@ -41,7 +41,10 @@ class SensorCardView(QFrame):
         self._mark = Mark(_STATE_PX)
         self._state = plain(f"{name}SensorState", _STATE_PX, is_wrapped=False)
         sized(self._state, _STATE_PX, is_bold=True)
-        self._identity = plain(f"{name}SensorName", TEXT_PX, is_wrapped=False)
+        self._identity = ElidedLabel()
+        self._identity.setObjectName(f"{name}SensorName")
+        self._identity.setTextFormat(Qt.TextFormat.PlainText)
+        self._identity.setAlignment(Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter)
         self._ports = PortChooser(side, protocols)
         self._figures = [Figure(f"{name}{key}", caption) for key, caption in FIGURES]
         self._plot = ArmPlot(f"{name}SetupPlot", f"{name.capitalize()} arm")
@@ -64,11 +67,13 @@ class SensorCardView(QFrame):
         self._mark.show_level(link_level(card))
         say(self._state, link_word(card))
         say(self._identity, card.name or card.sensor_id)
+        self._identity.setToolTip(self._identity.text())
         self._ports.show_card(card, ports)
         for figure, text in zip(self._figures, figure_texts(card.health), strict=True):
             figure.show_value(text)
         is_coming = card.health.link is LinkState.RECEIVING
         self._body.setCurrentWidget(self._plot if is_coming else self._advice)
+        self._test.setEnabled(is_coming)
         self._advice.show_card(card)
         say(self._kept, "\n".join(text for text in (card.calibration, card.level) if text))
         self._show_problem(card)
@@ -104,9 +109,9 @@ class SensorCardView(QFrame):
         title.setText(f"{self._name.capitalize()} arm: {ARM_WORK[side]}")
         sized(title, LARGE_PX + 2, is_bold=True)
         head = QHBoxLayout()
+        head.setSpacing(12)
         head.addWidget(title)
-        head.addStretch(1)
-        head.addWidget(self._identity)
+        head.addWidget(self._identity, 1)
         state = QHBoxLayout()
         state.setSpacing(10)
         state.addWidget(self._mark)

@@ -11,6 +11,7 @@ from gestureapp.cell.snapshot import Blocker, CellState
 from gestureapp.sensing.values import LinkState, Side
 from gestureapp.setup.values import CalibrationView, Position, Remedy
 from tests.ui.setup_bench import SetupRoom, card, six
+from ui.labels import ElidedLabel
 
 SIZES = [(1280, 720), (1366, 768), (1920, 1080)]
 STEPS = ("Sensors", "Calibrate", "Robot", "Settings", "People")
@@ -77,7 +78,13 @@ def worst(room: SetupRoom) -> None:
     problem = {"problem": LONG, "remedy": "calibrate it: six positions, a minute"}
     act = Remedy.CALIBRATE
     room.show(
-        left=card(Side.LEFT, LinkState.WRONG_DATA, advice=advice, bad_bytes="55 51 " * 16),
+        left=card(
+            Side.LEFT,
+            LinkState.WRONG_DATA,
+            name="BWT901CL " * 9,
+            advice=advice,
+            bad_bytes="55 51 " * 16,
+        ),
         right=card(Side.RIGHT, act=act, **problem),
         calibration=CalibrationView(
             Side.RIGHT, True, "Turn it onto its left edge, and let go", six(2), Position.X_UP
@@ -105,7 +112,7 @@ def test_both_steps_fit_without_clipping(qtbot, cell, operator, size):
         for label in room.widget("setupPage").findChildren(QLabel):
             if label.isVisible() and label.objectName() and not label.wordWrap():
                 wide = label.fontMetrics().horizontalAdvance(label.text())
-                elides = label.objectName().endswith("PortAbout")
+                elides = isinstance(label, ElidedLabel)
                 assert elides or label.width() >= wide, label.objectName()
             elif label.isVisible() and label.hasHeightForWidth():
                 high = label.heightForWidth(label.width())

@@ -181,6 +181,12 @@ def test_shaking_needs_data_from_both(room):
     assert room.text("setupSensorsTold") == "Shaking needs data from both sensors."
 
 
+def test_a_link_that_brings_nothing_is_not_tested(room):
+    room.show(left=card(Side.LEFT, LinkState.WRONG_DATA))
+    assert not room.button("leftTestLink").isEnabled()
+    assert room.button("rightTestLink").isEnabled()
+
+
 def test_found_sensors_are_given_to_an_arm(room):
     room.press("findSensors")
     strange = FoundSensor(BUSY_PORT, "", 0.0, "FT232R: bytes that no protocol reads")
