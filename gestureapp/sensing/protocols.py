@@ -49,14 +49,14 @@ BUILT_IN: tuple[Protocol, ...] = (
     ),
     Protocol(
         name="witmotion",
-        words="WitMotion sensors at +/-16 g: frames of 11 bytes with a checksum",
+        words="WitMotion sensors such as the BWT901CL, set to 16 g and 100 Hz",
         new_decoder=witmotion.WitmotionDecoder,
         to_nominal_g=witmotion.witmotion_to_g,
         limit_g=witmotion.LIMIT_G,
     ),
     Protocol(
         name="binary",
-        words="frames with CRC, running number, name and battery, as of resources/firmware",
+        words="sensors with our firmware: checked frames, with name and battery",
         new_decoder=binary.BinaryDecoder,
         to_nominal_g=binary.binary_to_g,
         limit_g=binary.LIMIT_G,
