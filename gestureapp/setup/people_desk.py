@@ -72,6 +72,7 @@ class PeopleDesk:
         if person != self.person or self._told is None:
             self.person = person
             self.use_postures()
+            self.rows = tuple(replace(row, is_chosen=row.name == person) for row in self.rows)
 
     def use_postures(self) -> None:
         """Give the cell the postures of whoever is chosen, as they are kept now."""
