@@ -49,8 +49,11 @@ class DraftBar(QFrame):
         is_stuck = bool(draft.wrong) or draft.is_locked
         level = Level.ATTENTION if is_stuck else Level.BUSY if draft.names else Level.OFF
         self._mark.show_level(level)
-        self._undo.setEnabled(bool(draft.names))
-        self._apply.setEnabled(draft.can_apply)
+        can_be_pressed = {self._undo: bool(draft.names), self._apply: draft.can_apply}
+        if any(button.hasFocus() and not can for button, can in can_be_pressed.items()):
+            self.setFocus()  # else Space would press whatever Qt hands the focus to
+        for button, can in can_be_pressed.items():
+            button.setEnabled(can)
 
 
 class LockBar(QFrame):
@@ -91,6 +94,9 @@ class LockBar(QFrame):
     def show_lock(self, lock: LockView) -> None:
         """Show another moment of the lock."""
         is_closed = lock.has_pin and not lock.is_open
+        going = (self._close,) if is_closed else (self._pin, self._open)
+        if any(widget.hasFocus() for widget in going):
+            self.setFocus()  # else Qt hands it to whatever comes next, and scrolls there
         self._lock.setVisible(is_closed)
         for widget in (self._pin, self._open):
             widget.setVisible(is_closed)

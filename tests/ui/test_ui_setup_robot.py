@@ -352,3 +352,21 @@ def test_everything_that_can_be_used_has_names(room, step):
                 if widget.isVisible() and widget.focusPolicy() is not Qt.FocusPolicy.NoFocus:
                     assert widget.objectName(), widget
                     assert widget.accessibleName() or widget.text(), widget.objectName()
+
+
+def test_the_keyboard_stays_where_it_was_used_when_a_button_goes(qtbot, room):
+    room.window.activateWindow()
+    assert QTest.qWaitForWindowActive(room.window, 5000)
+    room.show(lock=LockView(True, False, "locked"))
+    enter(room, "robotLockPin", "4711")
+    QTest.keyClick(field(room, "robotLockPin"), Qt.Key.Key_Return)
+    qtbot.waitUntil(lambda: bool(room.setup.calls), timeout=5000)
+    room.look()
+    assert QApplication.focusWidget().objectName() == "robotLock"
+    open_tab(room, FIELD)
+    enter(room, "setting_robot.margin_mm", "30")
+    qtbot.waitUntil(room.button("robotDraftApply").isEnabled, timeout=5000)
+    room.button("robotDraftApply").setFocus()
+    QTest.keyClick(room.button("robotDraftApply"), Qt.Key.Key_Space)
+    qtbot.waitUntil(lambda: "Applied" in room.text("robotDraftText"), timeout=5000)
+    assert QApplication.focusWidget().objectName() == "robotDraft"
