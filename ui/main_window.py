@@ -98,7 +98,11 @@ class MainWindow(QMainWindow):
             self._show(self._cell.snapshot())
             if self._virtual is not None:
                 train = self._train if self._place is Place.TRAIN else None
-                self._virtual.refresh(None if train is None else train.newest)
+                setup = self._setup if self._place is Place.SETUP else None
+                self._virtual.refresh(
+                    None if train is None else train.newest,
+                    None if setup is None else setup.newest,
+                )
         except Exception as error:  # the top of the poll: the window and its STOP must outlive it
             self.n_failed += 1
             if self.n_failed == 1:

@@ -34,6 +34,7 @@ class SetupPage(QWidget):
 
     Attributes:
         step: The one in sight.
+        newest: What was shown last; None before the first moment.
         notice: What has to be said across the window: why nothing here works.
     """
 
@@ -45,6 +46,7 @@ class SetupPage(QWidget):
         super().__init__(parent)
         self.setObjectName("setupPage")
         self.step = SetupStep.SENSORS
+        self.newest: SetupSnapshot | None = None
         self.notice = ""
         self._cell, self._setup = cell, setup
         self._builders = self._all_builders()
@@ -60,7 +62,7 @@ class SetupPage(QWidget):
 
     def show_snapshot(self, cell: Snapshot) -> None:
         """Show another moment of the cell and of setting up."""
-        setup = self._setup.snapshot()
+        setup = self.newest = self._setup.snapshot()
         states = setup_states(setup, cell)
         self._bar.show_states({step: states[step] for step in self._builders})
         self.notice = setup.trouble

@@ -10,9 +10,12 @@ from PySide6.QtWidgets import QFrame, QGridLayout, QHBoxLayout, QPushButton, QVB
 
 from gestureapp.gestures import GESTURES
 from gestureapp.guided.values import GuidedSnapshot
+from gestureapp.sensing.values import Side
+from gestureapp.setup.values import SetupSnapshot
 from gestureapp.simulation.prompts import NOTHING, Prompt
 from ui.labels import ElidedLabel, plain
 from ui.prompts import prompt_of
+from ui.setup_follower import SetupFollower, wish_of
 from ui.theme import SMALL_PX, TEXT_PX, sized
 
 HOW = (
@@ -20,8 +23,8 @@ HOW = (
 )
 FOLLOW_TIP = (
     "While guided training asks for gestures, the arms make them, with the timing of the person "
-    "who wears the sensors; about one take in fifteen is done wrong on purpose. Moving an arm "
-    "by hand ends it."
+    "who wears the sensors; about one take in fifteen is done wrong on purpose. While setup asks "
+    "for positions or postures, they are taken. Moving an arm by hand ends it."
 )
 GESTURE_KEYS = {
     "X+": "Up",
@@ -59,6 +62,9 @@ class VirtualOperator(Protocol):
     def follow(self, prompt: Prompt) -> None:
         """Do what a person is asked to do; called at every refresh while prompts are followed."""
 
+    def lay(self, side: Side, position: str) -> None:
+        """A sensor is taken off its arm and laid down, ``z-up`` and so on; then worn again."""
+
     def silence_left(self) -> None:
         """The left sensor sends nothing any more."""
 
@@ -76,6 +82,7 @@ class VirtualOperatorPanel(QFrame):
         super().__init__(parent)
         self.setObjectName("virtualOperatorPanel")
         self._operator = operator
+        self._setup_follower = SetupFollower(operator)
         self._follow = self._button("followPrompts", "", "follow prompts", "T", self._toggled)
         self._follow.setCheckable(True)
         self._follow.setToolTip(FOLLOW_TIP)
@@ -110,14 +117,19 @@ class VirtualOperatorPanel(QFrame):
         """Whether the arms do what training asks for."""
         return self._follow.isChecked()
 
-    def refresh(self, guided: GuidedSnapshot | None = None) -> None:
+    def refresh(
+        self, guided: GuidedSnapshot | None = None, setup: SetupSnapshot | None = None
+    ) -> None:
         """Show what the arms are doing now, and let them do what is asked for.
 
         Args:
             guided: What training shows; None while it is not to be seen.
+            setup: What setting up shows; None while it is not to be seen.
         """
         if self.is_following:
-            self._operator.follow(NOTHING if guided is None else prompt_of(guided))
+            self._setup_follower.follow(setup)
+            if wish_of(setup) is None:
+                self._operator.follow(NOTHING if guided is None else prompt_of(guided))
         doing = self._operator.describe()
         if doing != self._doing.text():
             self._doing.setText(doing)

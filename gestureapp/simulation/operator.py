@@ -119,6 +119,16 @@ class OperatorClient:
             prompt = NOTHING
         self._want(_Wish("prompt", lambda now_s: self._follower.orders(prompt, now_s)))
 
+    def lay(self, side: Side, position: str) -> None:
+        """Take a sensor off its arm and lay it down; its arm's next move wears it again.
+
+        Args:
+            side: Whose.
+            position: ``z-up`` and so on, by the axis that points up.
+        """
+        order = Order(side, {"do": "lie", "position": position})
+        self._want(_Wish(f"lay {side.value}", lambda _: [order]))
+
     def silence_left(self) -> None:
         """The left sensor sends nothing any more; its port stays open."""
         self.fault(Side.LEFT, FaultKind.SILENT)

@@ -293,6 +293,9 @@ class FakeOperator:
     def follow(self, prompt: Prompt) -> None:
         self.done.append(f"follow {prompt.label or 'nothing'}")
 
+    def lay(self, side: Side, position: str) -> None:
+        self.done.append(f"lay {side.value} {position}")
+
     def silence_left(self) -> None:
         self.done.append("silence_left")
 

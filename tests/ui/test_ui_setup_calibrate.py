@@ -192,3 +192,29 @@ def test_a_problem_of_a_card_leads_to_its_side(room):
     room.press("rightAct")
     assert room.button("calibrate_right").isChecked()
     assert room.text("calibrateSentence") == "Not calibrated."
+
+
+def test_the_virtual_operator_does_what_is_asked_for_each_thing_once(qtbot, cell, operator):
+    room = SetupRoom(cell, operator)
+    qtbot.addWidget(room.window)
+    room.enter("Calibrate")
+    room.press("followPrompts")
+    right = replace(UNDER_WAY, side=Side.RIGHT)
+    for calibration in (UNDER_WAY, replace(UNDER_WAY, wanted=Position.Y_DOWN), right):
+        room.show(calibration=calibration)
+        room.look()
+    room.show(calibration=CalibrationView())
+    room.show(postures=replace(RECORDING, is_stop_done=False))
+    room.show(postures=RECORDING)
+    room.show(postures=PosturesView("Ana"))
+    done = [each for each in operator.done if each != "follow nothing"]
+    assert done == [
+        "lay left x-up",
+        "lay left y-down",
+        "left_stop",
+        "lay right x-up",
+        "right_rest",
+        "left_stop",
+        "left_start",
+    ]
+    room.window.close()

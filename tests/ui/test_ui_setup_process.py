@@ -108,3 +108,16 @@ def test_postures_are_recorded_and_arming_is_possible_after_the_setup(demo):
         return not blockers & {"setup", "postures", "left_unfit", "right_unfit", "left_stop"}
 
     demo.see(is_open)
+
+
+@pytest.mark.process
+def test_a_sensor_is_calibrated_by_whoever_follows_the_sentences(demo):
+    demo.press("navSetup")
+    demo.press("setupStepCalibrate")
+    demo.press("followPrompts")
+    demo.press("beginCalibration")
+    demo.see(lambda: demo.text("calibrateOutcome").startswith(Check.PASSED.value))
+    assert demo.text("calibrateAfter").endswith("mg")
+    demo.see(lambda: demo.window.findChild(QAbstractButton, "calibrate_left").state != "")
+    record = demo.running.setup.snapshot().left
+    assert record.problem == ""
