@@ -10,19 +10,13 @@ import time
 import tomllib
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Any, Final, cast, get_type_hints
-
-import tomlkit
-from tomlkit.exceptions import TOMLKitError
-from tomlkit.items import AoT, Table
+from typing import Any, Final
 
 from gestureapp.clock import Clock
-from gestureapp.config import SCHEMA_VERSION, Settings
+from gestureapp.config import SCHEMA_VERSION
 from gestureapp.errors import ConfigError, RecordingError
 from gestureapp.recognition.files import mode_of, write_atomically
-from gestureapp.settings_check import LOCK_TABLE
 from gestureapp.settings_source import bytes_if_there, parsed, text_of
-from gestureapp.settings_text import comment_on_key, comment_on_table
 from gestureapp.settings_values import plain
 
 BACKUP_FOLDER: Final = "backups"
@@ -30,9 +24,6 @@ N_BACKUPS: Final = 10
 _BOM: Final = b"\xef\xbb\xbf"
 NEW_FILE: Final = f"schema = {SCHEMA_VERSION}\n"
 """What a settings file begins with."""
-_LOCK_COMMENT: Final = (
-    "# The PIN before settings that bear on motion; take this table out to have none."
-)
 
 
 def write_settings(
@@ -67,16 +58,12 @@ def edited(file: Path, old: bytes | None, changes: Mapping[str, object]) -> byte
     text = NEW_FILE if old is None else text_of(file, old)
     wanted = parsed(file, text)  # the reader's own parser decides whether the file is damaged
     values = {name: as_toml(value) for name, value in changes.items()}
+    # Not before it is needed: no start waits for it.
+    from gestureapp.settings_document import UnfitLayout, with_values
+
     try:
-        document = tomlkit.parse(text)
-        for name, value in values.items():
-            _put(document, name, value)
-        new = tomlkit.dumps(document)
-    except (
-        TOMLKitError,
-        TypeError,
-        AttributeError,
-    ) as error:  # a value stands where a table should
+        new = with_values(text, values)
+    except UnfitLayout as error:
         raise _not_changed(file) from error
     if "\r\n" in text:
         new = new.replace("\r\n", "\n").replace("\n", "\r\n")
@@ -126,58 +113,6 @@ def _keep(file: Path, content: bytes, wall_s: float) -> None:
     kept = sorted(path for path in folder.iterdir() if ours.fullmatch(path.name))
     for oldest in kept[:-N_BACKUPS]:
         oldest.unlink(missing_ok=True)
-
-
-def _put(document: tomlkit.TOMLDocument, name: str, value: Any) -> None:  # noqa: ANN401 - TOML
-    table_name, _, key = name.partition(".")
-    if value is None:
-        if table_name in document:
-            cast("Any", document[table_name]).pop(key, None)
-        return
-    if table_name not in document:
-        _add_table(document, table_name)
-    table = cast("Any", document[table_name])
-    if key in table and isinstance(table[key], AoT):
-        table.pop(key)
-    has_room = isinstance(table, Table) and not any(
-        isinstance(item, AoT | Table) for item in table.values()
-    )  # before tables of its own a comment would not stay with its key
-    if key not in table and has_room:
-        for line in _comment_lines(name):
-            table.add(tomlkit.comment(line.removeprefix("# ")))
-    table[key] = _item(value)
-
-
-def _item(value: Any) -> Any:  # noqa: ANN401 - TOML
-    """Boxes stay inside their list, each a table on one line."""
-    if not isinstance(value, list) or not any(isinstance(item, dict) for item in value):
-        return value
-    items = tomlkit.array()
-    for item in value:
-        inline = tomlkit.inline_table()
-        inline.update(item)
-        items.append(inline)
-    return items.multiline(True)
-
-
-def _add_table(document: tomlkit.TOMLDocument, name: str) -> None:
-    document.add(tomlkit.nl())
-    owner = _owner_of(name)
-    for line in [_LOCK_COMMENT] if owner is None else comment_on_table(owner):
-        document.add(tomlkit.comment(line.removeprefix("# ")))
-    document.add(name, tomlkit.table())
-    cast("Any", document[name]).trivia.indent = ""  # right below its comment
-
-
-def _comment_lines(name: str) -> list[str]:
-    table, _, key = name.partition(".")
-    owner = _owner_of(table)
-    return [] if owner is None else comment_on_key(owner, key)
-
-
-def _owner_of(table: str) -> type | None:
-    """The settings class of a table; None for that of the PIN."""
-    return None if table == LOCK_TABLE else cast("type", get_type_hints(Settings)[table])
 
 
 def as_toml(value: object) -> Any:  # noqa: ANN401 - TOML
