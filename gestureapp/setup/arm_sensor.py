@@ -19,6 +19,7 @@ from gestureapp.sensing.calibration import NOMINAL, Calibration
 from gestureapp.sensing.port_list import SystemPort
 from gestureapp.sensing.values import LinkState, Side, StreamHealth
 from gestureapp.setup.link_test import link_problem
+from gestureapp.setup.sides import SWAPPED
 from gestureapp.setup.values import LinkTestView, Remedy, SensorCard
 
 IDENTITY_WITHIN_S: Final = 1.5
@@ -196,7 +197,7 @@ class ArmSensor:
             words = ("it is being calibrated", "finish it, or end it: Setup, Calibrate")
             return Remedy.CALIBRATE, words
         if swapped[0]:
-            return Remedy.SWAP, swapped
+            return (Remedy.SWAP if swapped[0] == SWAPPED else Remedy.FIND), swapped
         if self.trouble:
             cause, _, remedy = self.trouble.rpartition("; ")
             return Remedy.CALIBRATE, (cause, remedy)

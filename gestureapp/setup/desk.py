@@ -84,10 +84,11 @@ class Desk:
         now_s, wall_s = self._clock(), self._wall_clock()
         picture = self._cell.snapshot()
         health = _health(picture)
-        if self.measuring.is_on and picture.state not in AT_REST:
+        is_at_rest = picture.state in AT_REST
+        if self.measuring.is_on and not is_at_rest:
             self.measuring.end()
         self.measuring.step(now_s, wall_s, health)
-        self.sensors.look(now_s, wall_s, health, is_open=self._is_open)
+        self.sensors.look(now_s, wall_s, health, is_open=self._is_open, is_at_rest=is_at_rest)
         self.people.follow(picture.person)
         self.picture = self._draw(picture, now_s)
 

@@ -13,6 +13,8 @@ from gestureapp.sensing.values import DecoderEvent, Frame, Garbage, Identity
 
 ENOUGH_FRAMES: Final = 40
 """So many good frames say which protocol it is; at 100 Hz they take less than half a second."""
+IDENTITY_WITHIN_S: Final = 1.1
+"""A sensor that says who it is does so once a second."""
 _LEAST_FRAMES: Final = 5
 _PLAUSIBLE_G: Final = (0.3, 3.0)
 """A sensor that lies or is held reads about 1 g; the wrong scale reads far from it."""
@@ -96,9 +98,11 @@ class PortEar:
 
     @property
     def is_sure(self) -> bool:
-        """Enough has come to say what it is."""
+        """Enough has come to say what it is, and who."""
         best = self._best()
-        return best is not None and best.n_good >= ENOUGH_FRAMES
+        if best is None or best.n_good < ENOUGH_FRAMES:
+            return False
+        return bool(best.identity) or best.times_s[-1] - best.times_s[0] >= IDENTITY_WITHIN_S
 
     def heard(self) -> Heard:
         """What it is, as far as can be told now."""

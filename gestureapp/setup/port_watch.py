@@ -30,7 +30,7 @@ class PortWatch:
         self._found: dict[str, SystemPort] = {}
         self._troubles: dict[str, str] = {}
         self._looked_s = float("-inf")
-        self._links: dict[Side, tuple[str, bool]] = {}
+        self._links: dict[Side, tuple[str, str]] = {}
         self.advice: dict[Side, tuple[str, ...]] = dict.fromkeys(Side, ())
 
     def look(
@@ -44,7 +44,7 @@ class PortWatch:
             is_open: Somebody watches.
         """
         links = {
-            side: (url, health.link is LinkState.NOT_CONNECTED)
+            side: (url, health.reason if health.link is LinkState.NOT_CONNECTED else "")
             for side, (url, health) in streams.items()
         }
         has_changed, self._links = links != self._links, links

@@ -37,12 +37,29 @@ class Sensors:
         self._watch = watch or PortWatch()
         self.arms = {side: ArmSensor(side, cell, data) for side in Side}
         self._sides = load_sides(data)
+        self._judged_s = 0.0
         self.trouble = ""
 
     def look(
-        self, now_s: float, wall_s: float, health: dict[Side, StreamHealth], *, is_open: bool
+        self,
+        now_s: float,
+        wall_s: float,
+        health: dict[Side, StreamHealth],
+        *,
+        is_open: bool,
+        is_at_rest: bool = True,
     ) -> None:
-        """Find out who is there, and tell the cell what may be armed with."""
+        """Find out who is there, and tell the cell what may be armed with.
+
+        Args:
+            now_s: Monotonic clock.
+            wall_s: Seconds since the epoch.
+            health: Of each arm's stream.
+            is_open: Somebody watches.
+            is_at_rest: Nothing may move. Otherwise nothing gets out of date: no hour that strikes
+                stops a robot on its way, but a sensor that is not the one it was does.
+        """
+        self._judged_s = wall_s if is_at_rest else self._judged_s
         streams = {side: (self._port_of(side), health[side]) for side in Side}
         self._watch.look(now_s, streams, is_open=is_open)
         for side, arm in self.arms.items():
@@ -50,7 +67,7 @@ class Sensors:
         self._adopt(now_s)
         swapped = find_swapped(self._sides, self._seen())
         for arm in self.arms.values():
-            arm.judge(wall_s, swapped)
+            arm.judge(self._judged_s, swapped)
 
     def card(self, side: Side, health: StreamHealth, wall_s: float) -> SensorCard:
         """One arm's sensor for the window."""
