@@ -91,6 +91,13 @@ def test_a_demo_is_ready_by_itself_and_leaves_a_readable_session(tmp_path: Path)
 
         assert wait_until(is_ready, 15.0), cell.snapshot().blockers
         assert cell.snapshot().is_simulation
+        running.setup.look(True)
+        assert wait_until(lambda: not is_ready(), 5.0)
+        assert [blocker.text for blocker in cell.snapshot().blockers] == ["setup is open"]
+        cards = running.setup.snapshot()
+        assert (cards.left.sensor_id, cards.right.sensor_id) == ("demo left", "demo right")
+        running.setup.look(False)
+        assert wait_until(is_ready, 5.0)
         assert running.operator is not None
         assert running.demo is not None
         pids = [running.demo.left.pid, running.demo.right.pid, running.demo.nx100.pid]

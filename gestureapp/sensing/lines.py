@@ -76,7 +76,7 @@ class LineSplitter:
 
 def readable_bytes(data: bytes) -> str:
     """Bytes as a person can read them: text as text, everything else in hexadecimal."""
-    text = data.rstrip(b"\r\n")
+    text = b" ".join(data.split())
     if text and all(0x20 <= byte < 0x7F for byte in text):
         return text.decode("ascii")
     return data.hex(" ")

@@ -123,7 +123,9 @@ class PortList:
         """All ports there are now, in the order of their names."""
         try:
             found = [port_of(self._entry(listed)) for listed in self._entries()]
-        except OSError:  # a device that went while it was asked about; the next look is soon
+        except (OSError, TypeError, ValueError):
+            # pyserial reads numbers from the files of a device that has just gone (3.5,
+            # list_ports_linux.py); the next look is soon.
             return ()
         return tuple(sorted(found, key=lambda port: (not port.is_bluetooth, port.name)))
 

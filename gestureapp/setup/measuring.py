@@ -59,7 +59,6 @@ class Measuring:
         self._positions: SixPositions | None = None
         self._level: LevelCheck | None = None
         self._postures: PostureRecorder | None = None
-        self._ports: dict[Side, str] = {}
         self._who = ""
         self.shake, self.link_test = ShakeView(), LinkTestView()
         self.calibration, self.level, self.postures = CalibrationView(), LevelView(), PosturesView()
@@ -109,7 +108,7 @@ class Measuring:
         """Measure this arm's link."""
         self.end()
         self._link = LinkTest(side, now_s, health, self._cell.settings.site.trip_level_s)
-        self._ports[side] = self._arms[side].settings.port
+        self._who = self._arms[side].known.id
         self.link_test = self._link.view
 
     def end_link_test(self) -> None:
@@ -189,8 +188,9 @@ class Measuring:
         side = self.link_test.side
         if test is None or side is None:
             return
-        if self._ports[side] != self._arms[side].settings.port:
-            self.end_link_test()
+        if self._is_another(side):
+            self._link = None
+            self.link_test = replace(self.link_test, outcome=Outcome(Check.FAILED, ANOTHER, wall_s))
             return
         test.step(now_s, wall_s, rows[side], health[side])
         self.link_test = test.view

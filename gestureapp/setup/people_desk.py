@@ -12,6 +12,7 @@ from gestureapp.recognition.model_file import load_model
 from gestureapp.recording.people import (
     clean_name,
     list_people,
+    look_alike,
     make_person_folder,
     note_last_person,
     person_folder,
@@ -66,6 +67,7 @@ class PeopleDesk:
         self.rows: tuple[PersonRow, ...] = ()
         self.person = ""
         self._told: tuple[LeftPostures, str, str] | None = None
+        self._chosen: tuple[PersonProfile, str] = PersonProfile(), ""
 
     def follow(self, person: str) -> None:
         """Whose arms the cell's model is for; the postures are then theirs, too."""
@@ -77,7 +79,7 @@ class PeopleDesk:
     def use_postures(self) -> None:
         """Give the cell the postures of whoever is chosen, as they are kept now."""
         site = self._cell.settings.site
-        profile, trouble = self._profile(self.person)
+        profile, trouble = self._chosen = self._profile(self.person)
         postures = profile.postures or LeftPostures()
         problem, remedy = posture_problem(postures, site)
         if trouble:
@@ -89,7 +91,7 @@ class PeopleDesk:
 
     def postures_view(self) -> PosturesView:
         """The chosen person's postures, while none are being recorded."""
-        profile, trouble = self._profile(self.person)
+        profile, trouble = self._chosen
         postures = profile.postures or LeftPostures()
         own = profile.postures is not None
         whose = f"{self.person}'s own" if own else _BUILT_IN_WORDS
@@ -115,9 +117,11 @@ class PeopleDesk:
     def why_not(self, name: str) -> str:
         """Why nobody can be called so; empty when somebody can."""
         try:
-            person_folder(self._data, name)
+            folder = person_folder(self._data, name)
         except RecordingError as error:
             return str(error).removeprefix(f"{error.path}: ")
+        if not folder.exists() and (there := look_alike(self._data, name)):
+            return f"there is already {there}: choose that one, or another name"
         return ""
 
     def choose(self, name: str) -> None:

@@ -147,3 +147,11 @@ def test_this_machine_can_be_asked():
     for port in PortList().look():
         assert port.url
         assert port.name
+
+
+@pytest.mark.parametrize("error", [OSError("gone"), TypeError("int(None)"), ValueError("")])
+def test_a_device_that_goes_while_it_is_asked_about_costs_one_look(error: Exception):
+    def entries() -> list[SimpleNamespace]:
+        raise error
+
+    assert PortList(entries).look() == ()

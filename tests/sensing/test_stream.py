@@ -434,3 +434,15 @@ def test_whatever_comes_alive_means_a_changed_sample_within_the_trip_level(actio
         assert not health.is_alive or health.age_s <= TRIP_S
         assert health.is_alive is (health.link is LinkState.RECEIVING)
         assert health.is_ok is (health.reason == "")
+
+
+def test_the_offending_bytes_are_shown_while_they_are_what_is_wrong():
+    bench = Bench()
+    bench.stream(0.5)
+    assert bench.health.bad_bytes == ""
+    bench.rubbish(0.2, Garbage(7, b"AT+OK\r\n", "expected n,x,y,z"))
+    assert bench.health.bad_bytes == "AT+OK"
+    bench.rubbish(0.2, Garbage(3, b"\x00\xff\x10", "expected n,x,y,z"))
+    assert bench.health.bad_bytes == "00 ff 10"
+    bench.sample()
+    assert bench.health.bad_bytes == ""
