@@ -3,10 +3,11 @@
 What the cell's control thread would do with judgements is noted; nothing of it is needed here.
 """
 
+import contextlib
 import os
 import queue
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
@@ -19,7 +20,7 @@ from gestureapp.sensing.posture import LeftPostures
 from gestureapp.sensing.reader import SensorReader
 from gestureapp.sensing.store import SampleStore
 from gestureapp.sensing.stream import StreamTracker
-from gestureapp.sensing.values import ArmPosture, LinkState, Sample, SensorEvent, Side
+from gestureapp.sensing.values import ArmPosture, Connected, LinkState, Sample, SensorEvent, Side
 from gestureapp.setup.desk import Desk
 from gestureapp.setup.people_desk import PeopleSource
 from gestureapp.setup.port_watch import PortWatch
@@ -83,6 +84,7 @@ class ReadCell:
         self.held: list[str] = []
         self.told: list[str] = []
         self.used: list[Settings] = []
+        self.n_opened = dict.fromkeys(Side, 0)
         self._inbox: queue.SimpleQueue[tuple[Side, Sample | SensorEvent]] = queue.SimpleQueue()
         site = settings.site
         self._trackers = {
@@ -107,6 +109,7 @@ class ReadCell:
             if isinstance(item, Sample):
                 self._trackers[side].sample(item)
             else:
+                self.n_opened[side] += isinstance(item, Connected)
                 self._trackers[side].event(now_s, item)
         left, right = (self._trackers[side].health(now_s) for side in (Side.LEFT, Side.RIGHT))
         return Snapshot(
@@ -236,10 +239,19 @@ class SetupBench:
         return self.cell.judged[side][0]
 
     def connect(self) -> None:
-        """Wait until both readers have their ports, then let the sensors send for a moment."""
-        for side in Side:
-            self.wait(lambda side=side: self.card(side).health.link is not LinkState.NOT_CONNECTED)
-        self.run(0.1)
+        """Let both sensors send until they are heard; from then on every sample is waited for."""
+        until_s = time.monotonic() + LIMIT_S
+        while any(self.card(side).health.link is not LinkState.RECEIVING for side in Side):
+            assert time.monotonic() < until_s, f"they are not heard: {self.picture}"
+            self.run(0.02)
+            time.sleep(0.005)
+
+    @contextlib.contextmanager
+    def reopening(self, *sides: Side) -> Iterator[None]:
+        """What is done here has these sensors' ports opened anew; it is waited for."""
+        before = dict(self.cell.n_opened)
+        yield
+        self.wait(lambda: all(self.cell.n_opened[side] > before[side] for side in sides))
 
     def run(self, span_s: float) -> None:
         """Let both sensors send at 100 Hz for so long, and setting up tick at 50 Hz."""

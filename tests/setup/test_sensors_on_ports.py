@@ -38,12 +38,12 @@ def binary(name: str):
 
 def wear(bench: SetupBench, left: str, right: str) -> None:
     """Both sensors speak binary under these names from now on."""
-    for side, name in ((L, left), (R, right)):
-        bench.sensors[side].encode = binary(name)
-        bench.cell.use_sensor(
-            side, replace(getattr(bench.cell.settings, side.value), protocol="binary")
-        )
-    bench.run(0.5)
+    with bench.reopening(L, R):
+        for side, name in ((L, left), (R, right)):
+            bench.sensors[side].encode = binary(name)
+            settings = replace(getattr(bench.cell.settings, side.value), protocol="binary")
+            bench.cell.use_sensor(side, settings)
+    bench.run(0.1)
     bench.connect()
     bench.run(3.0)
 
@@ -78,7 +78,7 @@ def test_unplugged_and_plugged_in_again(bench: SetupBench):
         f"{port.url} is not there: plug the receiver in, or choose another port.",
     )
     port.plug()
-    bench.wait(lambda: bench.card().health.link is not LinkState.NOT_CONNECTED)
+    bench.connect()
     bench.run(2.5)
     assert bench.card().health.link is LinkState.RECEIVING
     assert bench.card().advice == ()
@@ -100,9 +100,8 @@ def test_a_port_that_another_program_has_says_so(bench: SetupBench):
 
 
 def test_a_wrong_protocol_shows_what_came(bench: SetupBench):
-    bench.cell.use_sensor(L, replace(bench.cell.settings.left, protocol="adxl330"))
-    bench.run(0.5)
-    bench.connect()
+    with bench.reopening(L):
+        bench.cell.use_sensor(L, replace(bench.cell.settings.left, protocol="adxl330"))
     bench.run_until(lambda: bench.card().health.link is LinkState.WRONG_DATA)
     assert bench.card().bad_bytes.endswith(",0.0000,1.0000")
     bench.run(2.5)
@@ -147,9 +146,10 @@ def test_swapped_sensors_are_noticed_and_one_press_cures_it(bench: SetupBench):
     assert bench.judged(L) == bench.judged(R) == "the sensors are swapped"
     assert bench.card().act is Remedy.SWAP
     ports = bench.cell.settings.left.port, bench.cell.settings.right.port
-    bench.desk.swap_sensors()
+    with bench.reopening(L, R):
+        bench.desk.swap_sensors()
     assert (bench.cell.settings.right.port, bench.cell.settings.left.port) == ports
-    bench.run(0.5)
+    bench.run(0.1)
     bench.connect()
     bench.run(3.0)
     assert (bench.card(L).sensor_id, bench.card(R).sensor_id) == ("wrist A", "wrist B")
