@@ -32,7 +32,7 @@ class Still:
     """What was read while nothing moved.
 
     Attributes:
-        mean_g: Mean of all samples.
+        mean_g: Mean of the samples once it had settled.
         noise_g: Standard deviation, per axis.
         n_values: How many different values each axis showed.
         t_s: When it ended.
@@ -119,7 +119,7 @@ class Stillness:
     @property
     def so_far(self) -> Still | None:
         """What has been read since it began to be still; None before there is enough to tell."""
-        return self._still() if len(self._rows) >= _FREEST else None
+        return _still(self._rows) if len(self._rows) >= _FREEST else None
 
     @property
     def noise_g(self) -> float:
@@ -147,24 +147,25 @@ class Stillness:
         self._rows = np.vstack([self._rows, row])
         if self._span_s < self._hold_s:
             return None
-        if not self._may_sway and _sways(self._rows[:, 1:]):
-            self._wait_on()
+        rows = self._rows
+        settled = rows[len(rows) // _BLOCKS :]  # the first part is how it was laid down
+        if not self._may_sway and _sways(settled[:, 1:]):
+            self._wait_on(settled)
             return None
-        found, rows = self._still(), self._rows
+        found = _still(settled)
         self.restart()
         if len(rows) < RATE_MIN_HZ * self._hold_s:
             return None
-        if np.abs(rows[:, 1:] - np.array(found.mean_g)).max() > self._within_g:
+        if np.abs(settled[:, 1:] - np.array(found.mean_g)).max() > self._within_g:
             self.moved_after_s = self._hold_s  # so slowly that the mean went with it
             return None
         self.moved_after_s = 0.0
         return found
 
-    def _wait_on(self) -> None:
-        """Leave out the oldest part: how it was laid down, as a rule."""
+    def _wait_on(self, settled: F64) -> None:
         if math.isnan(self._sways_since_s):
             self._sways_since_s = self._newest_s
-        self._rows = self._rows[len(self._rows) // _BLOCKS :]
+        self._rows = settled
 
     def _move(self) -> None:
         self.moved_after_s = max(self.moved_after_s, self._span_s, _SOME_TIME_S)
@@ -175,15 +176,16 @@ class Stillness:
         mean = self._rows[:, 1:].mean(axis=0)
         return bool(np.abs(row[1:] - mean).max() <= limit_g)
 
-    def _still(self) -> Still:
-        values = self._rows[:, 1:]
-        counts = [len(np.unique(values[:, axis])) for axis in range(3)]
-        return Still(
-            _vector(values.mean(axis=0)),
-            _vector(values.std(axis=0)),
-            (counts[0], counts[1], counts[2]),
-            float(self._rows[-1, 0]),
-        )
+
+def _still(rows: F64) -> Still:
+    values = rows[:, 1:]
+    counts = [len(np.unique(values[:, axis])) for axis in range(3)]
+    return Still(
+        _vector(values.mean(axis=0)),
+        _vector(values.std(axis=0)),
+        (counts[0], counts[1], counts[2]),
+        float(rows[-1, 0]),
+    )
 
 
 def _sways(values: F64) -> bool:
