@@ -23,8 +23,8 @@ from ui.marks import Level, Mark
 from ui.theme import LARGE_PX, TEXT_PX, sized
 
 WHAT_IT_IS = (
-    "The robot moves 20 mm slowly in the direction chosen; press STOP while it moves, and the time "
-    "from the press to standstill is measured."
+    "The robot moves 20 mm slowly in the direction chosen, as the operator faces; press STOP while "
+    "it moves, and the time from the press to standstill is measured."
 )
 HOW_TO = (
     "Hold the button with the mouse and press Esc, or hold it with Space and press STOP with the "
@@ -129,19 +129,18 @@ class StopTestPanel(QWidget):
 
 def result_text(test: StopTestView, last: Outcome) -> str:
     """The figures of the last test, with its date."""
-    if test.phase is StopTestPhase.DONE and not math.isnan(test.took_ms):
-        further = "" if math.isnan(test.ran_on_mm) else f", {test.ran_on_mm:.1f} mm further"
-        text = f"{test.took_ms:.0f} ms from the press to standstill{further}."
+    if last.text:
         when = date_text(last)
-        return f"{text} {when}".strip()
-    if not last.text:
+        return f"{last.text} ({when})" if when else last.text
+    if test.phase is not StopTestPhase.DONE or math.isnan(test.took_ms):
         return "None yet."
-    return f"{last.text} {date_text(last)}".strip()
+    further = "" if math.isnan(test.ran_on_mm) else f", {test.ran_on_mm:.1f} mm further"
+    return f"{test.took_ms:.0f} ms from the press to standstill{further}"
 
 
 def _sentence_of(test: StopTestView) -> str:
     if test.sentence:
-        return test.sentence
+        return f"{test.sentence[:1].upper()}{test.sentence[1:]}"
     return {
         StopTestPhase.IDLE: "Choose a direction with room in it, then hold the button.",
         StopTestPhase.ARMING: "Arming. Keep holding.",
