@@ -26,31 +26,13 @@ NEW_FILE: Final = f"schema = {SCHEMA_VERSION}\n"
 """What a settings file begins with."""
 
 
-def write_settings(
-    file: Path, changes: Mapping[str, object], wall_clock: Clock = time.time
-) -> None:
-    """Change some values in a settings file, and nothing else.
-
-    Args:
-        file: Which; made, with its folder, when it is not there.
-        changes: By dotted name; as in ``Settings`` or as in the file. None takes the key out.
-        wall_clock: Seconds since the epoch, for the backup's name.
-
-    Raises:
-        ConfigError: the file is damaged, was changed meanwhile, or cannot be written: says why. The
-            file is as it was.
-    """
-    old = bytes_if_there(file)
-    replace_settings(file, old, edited(file, old, changes), wall_clock)
-
-
 def edited(file: Path, old: bytes | None, changes: Mapping[str, object]) -> bytes:
     """The content of a settings file with these changes in it. Pure.
 
     Args:
         file: Its name, for messages.
         old: Its content; None when it is not there.
-        changes: As for ``write_settings``.
+        changes: By dotted name; as in ``Settings`` or as in the file. None takes the key out.
 
     Raises:
         ConfigError: it is damaged, or made such that the change cannot be put into it.

@@ -13,8 +13,17 @@ from hypothesis import strategies as st
 from gestureapp.config import DriveMode, KeepOutSettings
 from gestureapp.errors import ConfigError
 from gestureapp.settings_edit import BACKUP_FOLDER, N_BACKUPS, edited, replace_settings
-from gestureapp.settings_edit import write_settings as write
 from gestureapp.settings_file import read_settings
+from gestureapp.settings_source import bytes_if_there
+
+WHEN_S = 1.75e9
+
+
+def write(file, changes, wall_clock=lambda: WHEN_S):
+    """Change some values in a settings file, as the application does."""
+    old = bytes_if_there(file)
+    replace_settings(file, old, edited(file, old, changes), wall_clock)
+
 
 MINE = """\
 # how we work here
@@ -256,11 +265,11 @@ def test_a_full_disk_is_told_and_the_old_file_stays(file: Path):
 import resource, signal, sys
 from pathlib import Path
 from gestureapp.errors import ConfigError
-from gestureapp.settings_edit import write_settings
+from tests.test_settings_edit import write
 signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
 resource.setrlimit(resource.RLIMIT_FSIZE, (20, 20))
 try:
-    write_settings(Path({str(file)!r}), {{"robot.tool": 1}})
+    write(Path({str(file)!r}), {{"robot.tool": 1}})
 except ConfigError as error:
     sys.exit(str(error))
 """
@@ -276,7 +285,7 @@ KILLED = 9
 _STEP_BY_STEP = """
 import os, sys
 from pathlib import Path
-from gestureapp.settings_edit import write_settings
+from tests.test_settings_edit import write
 
 file, old = Path(sys.argv[1]), Path(sys.argv[1]).read_bytes()
 n = 0
@@ -291,7 +300,7 @@ while True:
                 if not left[0]:
                     os._exit(9)
         sys.addaudithook(count)
-        write_settings(file, {"robot.tool": 1})
+        write(file, {"robot.tool": 1})
         os._exit(0)
     code = os.waitstatus_to_exitcode(os.waitpid(child, 0)[1])
     is_old = file.read_bytes() == old

@@ -145,14 +145,6 @@ class SettingsDesk:
                 return dict.fromkeys(changes, why)
         return {}
 
-    def look_again(self) -> None:
-        """Another part of the application has written to the user's file: show what is there.
-
-        What bears on motion is not taken over; a file that cannot be read changes nothing.
-        """
-        with self._mutex:
-            self._refreshed()
-
     def open_lock(self, pin: str) -> None:
         """Give the PIN, which takes some 50 ms; what bears on motion can be changed then."""
         self._lock.open(pin)
@@ -221,7 +213,7 @@ class SettingsDesk:
         if wrong:
             return _Trial(wrong)
         try:
-            self._refreshed_or_refused()
+            self._refresh()
             old = self._content(self._user)
             new = edited(self._user, old, changes)
             layers = self._read({self._user: new})
@@ -264,37 +256,27 @@ class SettingsDesk:
             return {}
         return {"robot.keep_outs": "the boxes of the site's file stay; a later file only adds some"}
 
-    def _refreshed_or_refused(self) -> None:
+    def _refresh(self) -> None:
         """Take over what else was written meanwhile, unless it bears on motion.
 
         Raises:
             ConfigError: it does, or a file cannot be read.
         """
-        if strange := self._refreshed(is_quiet=False):
+        contents = self._all_contents()
+        if contents == self._contents:
+            return
+        now = self._read()
+        before, after = _values(self._layers.settings), _values(now.settings)
+        strange = [n for n in after if after[n] != before[n] and bears_on_motion(n)]
+        if strange:
             reason = (
                 f"{', '.join(strange)} was changed by another program; start the application again "
                 "to use that"
             )
             raise ConfigError("settings file", str(self._user), reason)
-
-    def _refreshed(self, is_quiet: bool = True) -> list[str]:
-        """Read the files again; what bears on motion and is not as it was read before."""
-        try:
-            contents = self._all_contents()
-            if contents == self._contents:
-                return []
-            now = self._read()
-        except ConfigError:
-            if is_quiet:
-                return []
-            raise
-        before, after = _values(self._layers.settings), _values(now.settings)
-        strange = [n for n in after if after[n] != before[n] and bears_on_motion(n)]
-        if not strange:
-            self._used = _changed(self._used, self._layers.settings, now.settings)
-            self._layers, self._contents = now, contents
-            self._rows = self._drawn()
-        return strange
+        self._used = _changed(self._used, self._layers.settings, now.settings)
+        self._layers, self._contents = now, contents
+        self._rows = self._drawn()
 
     def _all_contents(self) -> tuple[bytes | None, ...]:
         """Of every file: what is the same need not be read into settings again."""

@@ -226,16 +226,6 @@ def test_what_another_program_wrote_meanwhile_is_not_used_unseen(bench: Bench):
     assert (bench.cell.used[-1].left.port, bench.cell.used[-1].robot.margin_mm) == ("COM3", 30.0)
 
 
-def test_looking_again_shows_what_was_remembered(bench: Bench):
-    desk = bench.opened()
-    bench.user.write_text("schema = 1\n[left]\nport = 'COM3'\n")
-    desk.look_again()
-    assert row(desk, "left.port").value == "COM3"
-    bench.user.write_text("schema =")
-    desk.look_again()
-    assert row(desk, "left.port").value == "COM3"
-
-
 def test_a_folder_that_cannot_be_written_is_one_line_and_nothing_is_used(bench: Bench):
     bench.user.parent.rmdir()
     bench.user.parent.write_text("a file where the folder should be")
