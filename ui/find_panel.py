@@ -9,7 +9,7 @@ from gestureapp.sensing.values import Side
 from gestureapp.setup.values import FindingView, FoundSensor
 from ui.labels import BigText, plain
 from ui.operate_page import framed
-from ui.setup_parts import push
+from ui.setup_parts import enable, push
 from ui.theme import LARGE_PX, TEXT_PX, sized
 
 MAX_ROWS = 8
@@ -100,7 +100,7 @@ class _FoundRow:
             if found is None:
                 continue
             is_own = owner is side
-            button.setEnabled(bool(found.protocol) and not is_own)
+            enable(button, bool(found.protocol) and not is_own)
             word = f"is the {side.value} arm's" if is_own else f"use for {side.value} arm"
             if word != button.text():
                 button.setText(word)

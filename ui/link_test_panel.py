@@ -8,7 +8,7 @@ from gestureapp.setup.values import Check, LinkTestView
 from ui.gap_histogram import GapHistogram
 from ui.labels import plain
 from ui.operate_page import framed
-from ui.setup_parts import Figure, OutcomeLine, push, say
+from ui.setup_parts import Figure, OutcomeLine, enable, push, say
 from ui.setup_words import LINK_FIGURES, link_figure_texts
 from ui.theme import LARGE_PX, TEXT_PX, sized
 
@@ -58,7 +58,7 @@ class LinkTestPanel(QFrame):
         self._histogram.show_gaps(test.histogram, test.set_trip_s)
         is_on = test.outcome.check is Check.RUNNING
         self._outcome.show_outcome(test.outcome)
-        self._again.setEnabled(not is_on)
+        enable(self._again, not is_on)
         word = "Stop testing" if is_on else "Back"
         if word != self._close.text():
             self._close.setText(word)

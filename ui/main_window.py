@@ -73,7 +73,7 @@ class MainWindow(QMainWindow):
         if guided is not None and trainer is not None:
             self._train = TrainPage(cell, guided, trainer)
         self._setup = SetupPage(cell, setup) if setup is not None else None
-        self._notice = NoticeBar("trainNotice")
+        self._notice = NoticeBar("pageNotice")
         self._stopped = NoticeBar("stoppedNotice")
         self._pages = PageStack("pages")
         pages = (self._operate, self._train, self._setup)

@@ -11,7 +11,7 @@ from ui.gesture_drawing import GestureDrawing
 from ui.labels import BigText
 from ui.operate_page import framed
 from ui.progress_ring import paint_ring
-from ui.setup_parts import Figure, OutcomeLine, push
+from ui.setup_parts import Figure, OutcomeLine, enable, push
 from ui.setup_words import POSTURE_FIGURES, posture_texts, postures_kept, postures_sentence
 from ui.theme import LARGE_PX, colours_of
 
@@ -59,8 +59,8 @@ class PosturesPanel(QFrame):
         if word != self._begin.text():
             self._begin.setText(word)
             self._begin.setAccessibleName(word)
-        self._begin.setEnabled(view.is_on or (bool(view.person) and is_left_alive))
-        self._forget.setEnabled(not view.is_on and bool(view.person) and view.wall_s > 0)
+        enable(self._begin, view.is_on or (bool(view.person) and is_left_alive))
+        enable(self._forget, not view.is_on and bool(view.person) and view.wall_s > 0)
 
     def _begin_or_end(self) -> None:
         if self._is_on:

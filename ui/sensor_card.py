@@ -12,7 +12,7 @@ from ui.marks import Level, Mark
 from ui.operate_page import framed
 from ui.pages import scrolled
 from ui.port_chooser import PortChooser
-from ui.setup_parts import Figure, OutcomeLine, push, say
+from ui.setup_parts import Figure, OutcomeLine, enable, push, say
 from ui.setup_words import ARM_WORK, FIGURES, figure_texts, link_level, link_word
 from ui.theme import LARGE_PX, SMALL_PX, TEXT_PX, sized
 
@@ -73,7 +73,7 @@ class SensorCardView(QFrame):
             figure.show_value(text)
         is_coming = card.health.link is LinkState.RECEIVING
         self._body.setCurrentWidget(self._plot if is_coming else self._advice)
-        self._test.setEnabled(is_coming)
+        enable(self._test, is_coming)
         self._advice.show_card(card)
         say(self._kept, "\n".join(text for text in (card.calibration, card.level) if text))
         self._show_problem(card)
@@ -98,6 +98,7 @@ class SensorCardView(QFrame):
         else:
             self._problem.show_problem(card.problem, card.remedy)
         self._act = card.act
+        enable(self._act_button, card.act is not Remedy.NONE)
         self._act_button.setVisible(card.act is not Remedy.NONE)
         if self._act_button.text() != card.act.value:
             self._act_button.setText(card.act.value)

@@ -10,6 +10,7 @@ from gestureapp.setup.controls import SetupControls
 from gestureapp.setup.values import SetupSnapshot
 from ui.pages import PageStack
 from ui.postures_panel import PosturesPanel
+from ui.setup_parts import enable
 from ui.setup_words import posture_level, posture_problem, postures_kept, sensor_task
 from ui.six_positions_panel import SixPositionsPanel
 from ui.task_button import TaskButton
@@ -80,7 +81,7 @@ class CalibrateStep(QWidget):
             self.choose_postures()
         is_free = calibrated is None and not setup.postures.is_on
         for button in (*self._sides.values(), self._postures_button):
-            button.setEnabled(is_free or button.isChecked())
+            enable(button, is_free or button.isChecked())
 
     def _lay_out(self) -> None:
         group = QButtonGroup(self)

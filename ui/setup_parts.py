@@ -1,7 +1,14 @@
 """Small parts of the setup's steps: buttons, figures with captions, an outcome with its mark."""
 
 from PySide6.QtCore import Qt
-from PySide6.QtWidgets import QHBoxLayout, QLabel, QPushButton, QVBoxLayout, QWidget
+from PySide6.QtWidgets import (
+    QAbstractButton,
+    QHBoxLayout,
+    QLabel,
+    QPushButton,
+    QVBoxLayout,
+    QWidget,
+)
 
 from gestureapp.setup.values import Check, Outcome
 from ui.labels import plain
@@ -28,6 +35,17 @@ def push(name: str, text: str, spoken: str = "", size_px: int = TEXT_PX + 1) -> 
     button.setMinimumHeight(BUTTON_PX)
     sized(button, size_px)
     return button
+
+
+def enable(button: QAbstractButton, can_be_pressed: bool) -> None:
+    """Open or close a button; one that has the keyboard gives it to its panel, not to a neighbour.
+
+    Else Space would press whatever Qt hands the focus to.
+    """
+    panel = button.parentWidget()
+    if button.hasFocus() and not can_be_pressed and panel is not None:
+        panel.setFocus()
+    button.setEnabled(can_be_pressed)
 
 
 def say(label: QLabel, text: str) -> None:

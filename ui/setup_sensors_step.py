@@ -15,7 +15,7 @@ from ui.labels import plain
 from ui.link_test_panel import LinkTestPanel
 from ui.pages import PageStack
 from ui.sensor_card import SensorCardView
-from ui.setup_parts import push, say
+from ui.setup_parts import enable, push, say
 from ui.shake_panel import ShakePanel
 from ui.theme import LARGE_PX, TEXT_PX
 
@@ -90,9 +90,9 @@ class SetupSensorsStep(QWidget):
             view.show_samples(stores[card.side], cell.t_s, card.health.is_alive)
             view.show_link_test(setup.link_test, setup.link_test.side is card.side)
         has_both = bool(setup.left.port and setup.right.port)
-        self._swap_button.setEnabled(has_both)
+        enable(self._swap_button, has_both)
         is_coming = setup.left.health.is_alive and setup.right.health.is_alive
-        self._shake_button.setEnabled(is_coming)
+        enable(self._shake_button, is_coming)
         say(self._told, "" if is_coming else "Shaking needs data from both sensors.")
 
     def _connect(self) -> None:
@@ -149,6 +149,7 @@ class SetupSensorsStep(QWidget):
     def _open(self, panel: QWidget) -> None:
         if self._stack.currentWidget() is not panel:
             self._stack.setCurrentWidget(panel)
+            panel.setFocus()  # else Space would press whatever Qt hands the focus to
 
     def _lay_out_cards(self) -> QWidget:
         cards = QHBoxLayout()

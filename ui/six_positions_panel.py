@@ -15,7 +15,7 @@ from gestureapp.setup.values import (
 from ui.labels import BigText
 from ui.operate_page import framed
 from ui.position_tile import PositionTile
-from ui.setup_parts import Figure, OutcomeLine, push
+from ui.setup_parts import Figure, OutcomeLine, enable, push
 from ui.setup_words import RESIDUALS, calibrate_sentence, level_words, residual_texts
 from ui.theme import LARGE_PX
 
@@ -80,8 +80,8 @@ class SixPositionsPanel(QFrame):
 
     def _show_buttons(self, card: SensorCard, level: LevelView, is_any_on: bool) -> None:
         is_checking = level.outcome.check is Check.RUNNING
-        self._begin.setEnabled(self._is_on or (card.health.is_alive and not is_checking))
-        self._check.setEnabled(card.health.is_alive and not is_any_on and not is_checking)
+        enable(self._begin, self._is_on or (card.health.is_alive and not is_checking))
+        enable(self._check, card.health.is_alive and not is_any_on and not is_checking)
         word = "Stop calibrating" if self._is_on else "Calibrate"
         if word != self._begin.text():
             self._begin.setText(word)

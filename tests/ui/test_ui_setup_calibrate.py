@@ -3,7 +3,9 @@
 from dataclasses import replace
 
 import pytest
-from PySide6.QtWidgets import QProgressBar
+from PySide6.QtCore import Qt
+from PySide6.QtTest import QTest
+from PySide6.QtWidgets import QApplication, QProgressBar
 
 from gestureapp.sensing.values import LinkState, Side
 from gestureapp.setup.values import (
@@ -218,3 +220,14 @@ def test_the_virtual_operator_does_what_is_asked_for_each_thing_once(qtbot, cell
         "left_start",
     ]
     room.window.close()
+
+
+def test_a_second_space_does_not_press_the_neighbour(room):
+    room.window.activateWindow()
+    assert QTest.qWaitForWindowActive(room.window, 5000)
+    room.button("checkLevel").setFocus(Qt.FocusReason.TabFocusReason)
+    QTest.keyClick(room.button("checkLevel"), Qt.Key.Key_Space)
+    room.show(level=LevelView(Side.LEFT, Outcome(Check.RUNNING), 0.1))
+    QTest.keyClick(QApplication.focusWidget() or room.window, Qt.Key.Key_Space)
+    room.show(level=LevelView(Side.LEFT, Outcome(Check.PASSED), 1.0, 0.4, 3.2))
+    assert room.setup.calls == ["begin_level_check left"]

@@ -67,9 +67,9 @@ def test_a_step_says_what_is_wrong_with_it(room):
 def test_trouble_is_said_across_the_window(room):
     room.enter()
     room.show(trouble="The sensors' records cannot be written: the disk is full")
-    assert "disk is full" in room.text("trainNotice")
+    assert "disk is full" in room.text("pageNotice")
     room.press("navOperate")
-    assert room.text("trainNotice") == ""
+    assert room.text("pageNotice") == ""
 
 
 def worst(room: SetupRoom) -> None:

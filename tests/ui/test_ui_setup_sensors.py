@@ -282,3 +282,17 @@ def test_typing_a_port_moves_no_arm_of_the_demonstration(qtbot, cell, operator):
     assert combo(room, "leftPort").currentText() == "sad fog rat"
     assert operator.done == []
     room.window.close()
+
+
+@pytest.mark.parametrize("name", ["assignByShaking", "findSensors", "leftTestLink"])
+def test_a_second_space_does_not_press_what_came_instead(room, name):
+    room.window.activateWindow()
+    assert QTest.qWaitForWindowActive(room.window, 5000)
+    room.button(name).setFocus(Qt.FocusReason.TabFocusReason)
+    QTest.keyClick(room.button(name), Qt.Key.Key_Space)
+    room.look()
+    asked = list(room.setup.calls)
+    assert len(asked) == 1
+    QTest.keyClick(QApplication.focusWidget() or room.window, Qt.Key.Key_Space)
+    room.look()
+    assert room.setup.calls == asked

@@ -198,7 +198,7 @@ def test_nothing_is_marked_before_the_first_take(room):
 def test_a_lost_sensor_is_told_across_the_window_until_it_is_back(room):
     room.press("startBatch")
     room.run_until(lambda picture: picture.n_in_batch == 1)
-    bar = room.window.findChild(QLabel, "trainNotice")
+    bar = room.window.findChild(QLabel, "pageNotice")
     assert not bar.isVisible()
     room.bench.lose(Side.RIGHT)
     room.run_until(lambda picture: picture.phase is Phase.SENSOR_LOST)
