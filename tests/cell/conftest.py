@@ -231,6 +231,10 @@ class Desk:
     def press(self, event: Input) -> None:
         self.control.handle(event, self.now_s)
 
+    def press_guardian(self, message: m.FromGuardian) -> None:
+        """The guardian says this now."""
+        self.control.handle(GuardianSaid(message), self.now_s)
+
     def ready(self) -> "Desk":
         assert self.run(4.0, CellState.READY), self.control.state
         return self

@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 
 from gestureapp.robot import messages as m
 from gestureapp.robot.outputs import ToApp, ToRobot
-from gestureapp.robot.values import Direction, StopReason
+from gestureapp.robot.values import Caps, Direction, StopReason
 
 TICKS = st.tuples(st.just("run"), st.integers(1, 30))
 SAID = st.sampled_from([m.Arm(), m.Arm(), m.Disarm(), m.ServoOn(), m.ServoOff(), m.Bye()])
@@ -45,9 +45,16 @@ BYTES = st.tuples(
     st.sampled_from([b"0000\r\n", b"OK: IMOV\r\n", b"NG: x\r\n", b"\n"]) | st.binary(max_size=9),
 )
 MOVE = st.just("move")
+TESTS = st.tuples(
+    st.just("test"),
+    st.integers(0, 2),
+    st.builds(Caps, st.sampled_from([1.0, 20.0, 500.0]), st.sampled_from([5.0, 20.0, 250.0])),
+)
+FIRST_TEST = 1000
+"""Activations of stop tests, and of what follows one, count from here."""
 ACTIONS = st.lists(
     TICKS | TICKS | SAID | STOPS | PROPOSALS | PROPOSALS | POSTURES | BEATS | SWITCHES | TIMES
-    | REFUSALS | BITS | BYTES | MOVE | MOVE,
+    | REFUSALS | BITS | BYTES | MOVE | MOVE | TESTS,
     max_size=25,
 )  # fmt: skip
 
@@ -79,6 +86,8 @@ def carry_out(cell, action):
 
 def disturb(cell, action):
     match action:
+        case "test", axis, caps:
+            carry_out_a_stop_test(cell, axis, caps)
         case "refuses", name:
             cell.robot.refuses[name] = 2060
         case "takes", name:
@@ -110,13 +119,31 @@ def carry_out_a_whole_move(cell):
     cell.run(0.05)
 
 
+def carry_out_a_stop_test(cell, axis, caps):
+    """Armed with the left arm in stop, it stays there and the move is proposed."""
+    cell.left_s = cell.control_s = cell.gui_s = 0.0
+    cell.posture = "stop"
+    cell.run(0.1)
+    cell.say(m.Arm())
+    cell.run(0.3)
+    cell.activation_id = max(cell.activation_id, FIRST_TEST) + 1
+    direction = Direction(axis, -1, is_rotation=False)
+    cell.say(m.Propose(cell.activation_id, direction, cell.now_s, caps))
+    cell.run(0.05)
+
+
 def check_story(story):
-    """Every move had an Arm after the newest latched stop, and an activation of its own."""
+    """Every move had an Arm after the newest latched stop, and an activation of its own.
+
+    A stop test went 20 mm at most, at 20 mm/s at most, and what it was armed for was its one move.
+    """
     has_armed, used, n_headers, n_payloads = False, 0, 0, 0
+    test_ids = {item.activation_id for item in story if isinstance(item, m.Propose) and item.caps}
+    is_tested = False
     for item in story:
         match item:
             case ToApp(m.Armed()):
-                has_armed = True
+                has_armed, is_tested = True, False
             case ToApp(m.Disarmed()):
                 has_armed = False
             case ToApp(m.StopAsked(reason=reason)) if reason.is_latched:
@@ -124,6 +151,7 @@ def check_story(story):
             case ToRobot(data) if data.startswith(b"HOSTCTRL_REQUEST IMOV"):
                 n_headers += 1
                 assert has_armed
+                assert not is_tested
             case ToRobot(data) if data.count(b",") == 16:
                 n_payloads += 1
                 assert has_armed
@@ -131,6 +159,9 @@ def check_story(story):
             case ToApp(m.CommandSent(activation_id=activation_id)):
                 assert activation_id > used
                 used = activation_id
+                if is_tested := activation_id in test_ids:
+                    assert sum(map(abs, item.message.increment.translation_mm)) <= 20.0
+                    assert item.message.speed <= 20.0
     sent = [item for item in story if isinstance(item, ToApp)]
     assert n_headers == sum(isinstance(item.message, m.CommandSent) for item in sent)
     arms = sum(isinstance(item, m.Arm) for item in story)
