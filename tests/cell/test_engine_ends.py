@@ -151,7 +151,7 @@ def test_a_cell_without_any_hardware_says_what_is_missing_and_ends_at_once(until
         assert until(lambda: {b.id for b in cell.snapshot().blockers} >= {"robot_link"})
         snapshot = cell.snapshot()
         assert [b.id for b in snapshot.blockers] == [
-            *("left_sensor", "right_sensor", "model", "robot_link")
+            *("left_unfit", "left_sensor", "right_unfit", "right_sensor", "model", "robot_link")
         ]
         assert all(b.remedy for b in snapshot.blockers)
         assert snapshot.state is S.NOT_READY
