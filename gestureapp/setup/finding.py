@@ -15,7 +15,8 @@ from gestureapp.worker import Worker
 
 LISTEN_S: Final = 1.5
 """On each port: a sensor at 20 Hz has sent enough by then, and a Bluetooth one has woken up."""
-_JOIN_S: Final = 2.0
+_JOIN_S: Final = 0.5
+"""A read that is under way ends within a fifth of this; only opening a port may take longer."""
 
 
 class Finder:

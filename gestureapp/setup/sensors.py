@@ -100,7 +100,7 @@ class Sensors:
         settings = self._cell.settings
         seen = self._seen()
         self._use({Side.LEFT: settings.right, Side.RIGHT: settings.left})
-        self._sides = Sides(seen.right, seen.left)
+        self._sides = seen.swapped()
         self._save_sides()
         self._cell.tell("left and right sensor are swapped")
 
