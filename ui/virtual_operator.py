@@ -18,9 +18,7 @@ from ui.prompts import prompt_of
 from ui.setup_follower import SetupFollower, wish_of
 from ui.theme import SMALL_PX, TEXT_PX, sized
 
-HOW = (
-    "Both arms together make a gesture: the left one takes the start posture as the right one moves"
-)
+HOW = "Both arms together: the left one takes the start posture as the right one moves"
 FOLLOW_TIP = (
     "While guided training asks for gestures, the arms make them, with the timing of the person "
     "who wears the sensors; about one take in fifteen is done wrong on purpose. While setup asks "
