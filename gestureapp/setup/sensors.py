@@ -38,6 +38,7 @@ class Sensors:
         self.arms = {side: ArmSensor(side, cell, data) for side in Side}
         self._sides = load_sides(data)
         self._judged_s = 0.0
+        self._asked: dict[Side, SensorSettings] = {}
         self.trouble = ""
 
     def look(
@@ -63,6 +64,7 @@ class Sensors:
         streams = {side: (self._port_of(side), health[side]) for side in Side}
         self._watch.look(now_s, streams, is_open=is_open)
         for side, arm in self.arms.items():
+            self._wanted(side)
             arm.look(now_s, health[side], self._watch.port(self._port_of(side)))
         self._adopt(now_s)
         swapped = find_swapped(self._sides, self._seen())
@@ -97,9 +99,8 @@ class Sensors:
 
     def swap(self) -> None:
         """The left sensor is the right one from now on, and the other way round."""
-        settings = self._cell.settings
-        seen = self._seen()
-        self._use({Side.LEFT: settings.right, Side.RIGHT: settings.left})
+        left, right, seen = self._wanted(Side.LEFT), self._wanted(Side.RIGHT), self._seen()
+        self._use({Side.LEFT: right, Side.RIGHT: left})
         self._sides = seen.swapped()
         self._save_sides()
         self._cell.tell("left and right sensor are swapped")
@@ -108,6 +109,14 @@ class Sensors:
         """They are assigned rightly as they are: a person has shown it."""
         self._sides = self._seen()
         self._save_sides()
+
+    def _wanted(self, side: Side) -> SensorSettings:
+        """What was asked for last: the cell takes it a moment later."""
+        used = sensor_of(self._cell.settings, side)
+        wanted = self._asked.get(side, used)
+        if wanted == used:
+            self._asked.pop(side, None)
+        return wanted
 
     def _port_of(self, side: Side) -> str:
         return sensor_of(self._cell.settings, side).port
@@ -136,12 +145,12 @@ class Sensors:
             for name in ("port", "protocol", "name")
         }
         wrong = self._remember(changes)
+        if wrong:
+            for side, settings in chosen.items():
+                self._cell.use_sensor(side, settings)
+        self._asked |= chosen
         self.trouble = ""
-        if not wrong:
-            return
-        for side, settings in chosen.items():
-            self._cell.use_sensor(side, settings)
-        if not self._cell.settings.is_simulation:
+        if wrong and not self._cell.settings.is_simulation:
             why = "; ".join(dict.fromkeys(wrong.values()))
             self.trouble = f"used until the end, but not remembered: {why}"
 

@@ -84,6 +84,8 @@ class ReadCell:
         self.held: list[str] = []
         self.told: list[str] = []
         self.used: list[Settings] = []
+        self.is_busy = False
+        self._waiting: dict[Side, SensorSettings] = {}
         self.n_opened = dict.fromkeys(Side, 0)
         self._inbox: queue.SimpleQueue[tuple[Side, Sample | SensorEvent]] = queue.SimpleQueue()
         site = settings.site
@@ -134,11 +136,20 @@ class ReadCell:
         )
 
     def use_sensor(self, side: Side, settings: SensorSettings) -> None:
+        if self.is_busy:
+            self._waiting[side] = settings
+            return
         self._readers[side].use(settings)
         if side is Side.LEFT:
             self.settings = replace(self.settings, left=settings)
         else:
             self.settings = replace(self.settings, right=settings)
+
+    def take(self) -> None:
+        """Nothing may move any more: take what has waited for that."""
+        self.is_busy = False
+        for side, settings in self._waiting.items():
+            self.use_sensor(side, settings)
 
     def use_calibration(self, side: Side, calibration: Calibration) -> None:
         self.calibrations[side] = calibration

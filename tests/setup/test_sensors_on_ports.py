@@ -156,6 +156,19 @@ def test_swapped_sensors_are_noticed_and_one_press_cures_it(bench: SetupBench):
     assert (bench.judged(L), bench.judged(R)) == ("", "")
 
 
+def test_swapping_twice_before_the_cell_has_taken_it_is_no_change(bench: SetupBench):
+    before = bench.cell.settings
+    bench.cell.is_busy = True
+    bench.desk.swap_sensors()
+    bench.desk.step()
+    bench.desk.swap_sensors()
+    bench.cell.take()
+    bench.desk.step()
+    assert bench.cell.settings == before
+    bench.desk.swap_sensors()
+    assert bench.cell.settings.left == before.right
+
+
 def test_two_sensors_of_one_name_are_not_armed_with(bench: SetupBench):
     wear(bench, "sensor", "sensor")
     assert bench.judged(L) == bench.judged(R) == "both sensors have the same name"
