@@ -167,14 +167,13 @@ def _take_set(arrays: Mapping[str, NDArray[np.generic]], path: Path) -> TakeSet:
     samples, remarks = put_right(
         takes.samples,
         takes.offsets,
-        takes.activation,
         None if turn is None else _numbers("R_device_to_paper", turn),
     )
     return replace(takes, samples=samples, remarks=remarks)
 
 
 def _with_gravity(takes: TakeSet) -> TakeSet:
-    samples, remarks = add_gravity(takes.samples, takes.offsets, takes.activation)
+    samples, remarks = add_gravity(takes.samples, takes.offsets)
     return replace(takes, samples=samples, remarks=remarks) if remarks else takes
 
 

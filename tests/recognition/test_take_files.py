@@ -7,13 +7,15 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from gestureapp.errors import RecordingError, RecordingInvalid
+from gestureapp.gestures import LABELS
 from gestureapp.recognition.takes import TakeSet, load_takes, save_takes
+from gestureapp.simulation.takes import make_takes
 
 
 def takes_of(**changes):
     rng = np.random.default_rng(0)
     values = {
-        "samples": rng.normal(0, 1, (10, 3)).astype(np.float32),
+        "samples": rng.normal([0.0, 0.0, 1.0], 0.1, (10, 3)).astype(np.float32),
         "offsets": [0, 4, 10],
         "labels": ("X+", "left"),
         "activation": [1, 0],
@@ -55,7 +57,7 @@ def test_takes_written_and_read_are_the_same(tmp_path):
 
 
 def test_the_fingerprint_outlives_the_file_also_for_finer_samples(tmp_path):
-    takes = takes_of(samples=np.random.default_rng(1).normal(0, 1, (10, 3)))
+    takes = takes_of(samples=np.random.default_rng(1).normal([0, 0, 1], 0.1, (10, 3)))
     save_takes(tmp_path / "t.npz", takes)
 
     assert load_takes(tmp_path / "t.npz").fingerprint() == takes.fingerprint()
@@ -263,8 +265,42 @@ def test_with_an_activation_only_gravity_is_given_back(tmp_path, activation):
     takes = load_takes(marked(tmp_path / "t.npz", activation=np.array([activation] * 2)))
 
     assert takes.activation.tolist() == [activation] * 2
-    assert takes.remarks == ("gravity had been removed: 1 g is added on Z",)
+    (remark,) = takes.remarks
+    assert "without gravity, 1 g is added on Z" in remark
     assert np.allclose(takes.accel_g(0)[3], [0.0, 0.8, 1.0])
+
+
+def moving_already(path, gestures, n_samples, removed_g):
+    """Takes that begin at the activation, when the hand moves, without so much on Z."""
+    made = make_takes(1, 6, 31, gestures=gestures)
+    parts = [
+        made.accel_g(i)[start : start + n_samples] - [0.0, 0.0, removed_g]
+        for i, start in enumerate(made.activation.tolist())
+    ]
+    return write(
+        path,
+        samples=np.concatenate(parts),
+        offsets=np.cumsum([0, *map(len, parts)]),
+        labels=np.array(made.labels),
+        activation=np.zeros(len(made), dtype=int),
+        rate_hz=np.array(100.0),
+    )
+
+
+SETS = [LABELS, LABELS[:6], ("RX+", "RX-", "RY+", "RY-"), ("Y+", "Y-"), ("X+", "RZ-")]
+
+
+@pytest.mark.parametrize("gestures", SETS, ids="".join)
+@pytest.mark.parametrize("n_samples", [20, 30])
+def test_removed_gravity_is_noticed_though_the_hand_moves_from_the_first_sample_on(
+    tmp_path, gestures, n_samples
+):
+    whole = load_takes(moving_already(tmp_path / "with.npz", gestures, n_samples, 0.0))
+    bare = load_takes(moving_already(tmp_path / "without.npz", gestures, n_samples, 1.0))
+
+    assert whole.remarks == ()
+    assert "1 g is added on Z" in bare.remarks[0]
+    assert np.allclose(bare.samples, whole.samples)
 
 
 def test_with_an_activation_and_gravity_nothing_is_put_right(tmp_path):
