@@ -131,6 +131,9 @@ def learn_onset(
         base: The shared base model and what is no gesture.
         seed: Of all chance.
         progress: Told about fifty times.
+
+    Raises:
+        NotEnoughTakes: a gesture's takes show neither movement nor posture.
     """
     rng = np.random.default_rng([seed, 3])
     labels = ordered_labels(takes)
@@ -142,7 +145,7 @@ def learn_onset(
     streams = streams_of(takes)
     onsets_g = personal_onsets_g(streams, shares)
     known, fewest = base.knows(labels), min(Counter(takes.labels).values())
-    shown = _shown(streams, outputs, shares, onsets_g, base, known, seed)
+    shown = _shown(takes, streams, outputs, shares, onsets_g, base, known, seed)
     layers, loss, steps = _learn_members(labels, base, known, fewest, shown, rng, progress)
     ensembles = [base.ensemble_of(each) for each in layers]
     calibration = Calibration(EARLY, LAST, 1.0, "the usual thresholds")
@@ -181,6 +184,7 @@ class _Shown:
 
 
 def _shown(
+    takes: TakeSet,
     streams: Streams,
     outputs: I64,
     shares: Sequence[Mask],
@@ -200,11 +204,30 @@ def _shown(
     for number, (share, onset_g) in enumerate(zip(shares, onsets_g, strict=True)):
         rng = np.random.default_rng([seed, 5, number])
         part = views[onset_g].select(share[views[onset_g].take])
+        _refuse_unmoved(takes, part.take, is_fold=number > 0)
         pools.append((_varied(part, base, rng), np.tile(outputs[part.take], VARIED)))
     rng = np.random.default_rng([seed, 6])
     level_g = ONSET_G * ONSET_FACTOR ** rng.uniform(0.0, 1.0, len(base.negatives))
     none = negative_views(streams_of(base.negatives), level_g, PER_NEGATIVE, rng)
     return _Shown(pools, _varied(none, base, rng), known, seed)
+
+
+def _refuse_unmoved(takes: TakeSet, shown: I64, is_fold: bool) -> None:
+    """The model needs to see each gesture, and a network of the cross-validation any.
+
+    Args:
+        takes: All.
+        shown: Numbers of those with a moment to learn from.
+        is_fold: Whether a network of the cross-validation is meant.
+    """
+    seen = {takes.labels[row] for row in np.unique(shown).tolist()}
+    unmoved = [label for label in ordered_labels(takes) if label not in seen]
+    if unmoved and not (is_fold and seen):
+        raise NotEnoughTakes(
+            takes.source,
+            f"no movement was found in the takes of {', '.join(unmoved)}: record them again; takes "
+            "from a file must be in g, at the right 'rate_hz', and go on after the activation",
+        )
 
 
 def _varied(views: Views, base: Base, rng: np.random.Generator) -> F32:

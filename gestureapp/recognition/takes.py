@@ -20,6 +20,7 @@ from numpy.typing import NDArray
 from gestureapp.errors import RecordingInvalid
 from gestureapp.recognition.files import write_atomically
 from gestureapp.recognition.marked_takes import add_gravity, put_right
+from gestureapp.recognition.readings import find_fault_of_readings
 
 F64 = NDArray[np.float64]
 I64 = NDArray[np.int64]
@@ -113,7 +114,8 @@ def load_takes(path: Path) -> TakeSet:
     """Read takes from an NPZ file. Nothing in the file is executed.
 
     Raises:
-        RecordingInvalid: the file cannot be read, is no NPZ or is damaged; says what and where.
+        RecordingInvalid: the file cannot be read, is no NPZ, is damaged or not in g; says what and
+            where.
     """
     arrays = _read_arrays(path)
     for name in ("samples", "offsets", "labels"):
@@ -161,6 +163,8 @@ def _take_set(arrays: Mapping[str, NDArray[np.generic]], path: Path) -> TakeSet:
         rate_hz=_rate(arrays.get("rate_hz")),
         source=path,
     )
+    if fault := find_fault_of_readings(takes.samples, takes.offsets):
+        raise ValueError(fault)
     if not is_marked:
         return _with_gravity(takes)
     turn = arrays.get("R_device_to_paper")

@@ -62,6 +62,35 @@ def test_a_person_is_recognised_on_another_day_and_the_file_says_the_same(tmp_pa
     assert (tmp_path / "model.json").stat().st_size < 1_500_000
 
 
+def still_from(takes, rows):
+    """The same, but in these takes nothing moves."""
+    samples = takes.samples.copy()
+    for row in rows:
+        samples[takes.offsets[row] : takes.offsets[row + 1]] = [0.0, 0.0, 1.0]
+    return replace(takes, samples=samples)
+
+
+@pytest.mark.parametrize("still", [range(6, 12), range(18)], ids=["one gesture", "all"])
+def test_a_gesture_in_whose_takes_nothing_moves_is_refused_by_name(still):
+    takes = still_from(other_takes(), still)
+
+    with pytest.raises(NotEnoughTakes, match=r"in the takes of .*poke") as no:
+        train(takes, seed=1)
+
+    assert ("wave" in str(no.value)) == (len(still) == 18)
+
+
+@pytest.mark.usefixtures("few_steps")
+def test_a_fold_in_which_nothing_moves_is_heard_as_nothing():
+    takes = replace(other_takes(), repetition=tuple(str(n % 6) for n in range(18)))
+    takes = still_from(takes, [row for row in range(18) if row % 6 == 2])
+
+    found = train(takes, seed=1).cross_validation.evaluation
+
+    assert found.n == 18
+    assert found.rejected >= 3 / 18
+
+
 @pytest.mark.usefixtures("few_steps")
 def test_a_seed_gives_the_same_model_and_another_seed_another():
     takes = make_takes(1, 5, SEED, gestures=("X+", "Z-"))

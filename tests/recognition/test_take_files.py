@@ -1,5 +1,6 @@
 import io
 import stat
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -338,3 +339,35 @@ def test_a_number_that_is_not_finite_is_told_with_its_row(tmp_path):
     samples[5, 1] = np.nan
     with pytest.raises(RecordingInvalid, match="holds a number that is not finite at row 5"):
         load_takes(write(tmp_path / "t.npz", samples=samples))
+
+
+def test_takes_in_metres_per_second_squared_are_refused_with_the_remedy(tmp_path):
+    made = make_takes(1, 2, 31)
+    path = tmp_path / "t.npz"
+    save_takes(path, replace(made, samples=made.samples * 9.80665))
+
+    with pytest.raises(RecordingInvalid, match=r"look like m/s2; divide them by 9\.80665"):
+        load_takes(path)
+
+
+def test_takes_in_counts_of_a_sensor_are_refused_with_the_remedy(tmp_path):
+    samples = np.tile([30, -20, 16384], (10, 1)).astype(np.int16)
+
+    with pytest.raises(RecordingInvalid, match="what the sensor reads for 1 g"):
+        load_takes(write(tmp_path / "t.npz", samples=samples))
+
+
+@pytest.mark.parametrize("value", [101.0, -1e30, 1e308])
+def test_a_reading_that_no_hand_makes_is_refused_with_its_take(tmp_path, value):
+    samples = np.tile([0.0, 0.0, 1.0], (10, 1))
+    samples[6, 1] = value
+
+    with pytest.raises(RecordingInvalid, match=r"row 6 \(take 1\): beyond 100 g is no reading"):
+        load_takes(write(tmp_path / "t.npz", samples=samples))
+
+
+def test_a_blow_within_the_range_of_sensors_is_read(tmp_path):
+    samples = np.tile([0.0, 0.0, 1.0], (10, 1))
+    samples[6] = [-16.0, 16.0, 16.0]
+
+    assert load_takes(write(tmp_path / "t.npz", samples=samples)).samples[6, 0] == -16.0
