@@ -33,6 +33,7 @@ def arrays_of(**changes):
         "offsets": np.array([0, 4, 10]),
         "labels": np.array(["X+", "Y-"]),
         "activation": np.array([1, 0]),
+        "rate_hz": np.array(100.0),
     }
     arrays |= changes
     return {name: array for name, array in arrays.items() if array is not None}
@@ -70,8 +71,23 @@ def test_an_unknown_rate_stays_unknown(tmp_path):
     assert load_takes(tmp_path / "t.npz").rate_hz is None
 
 
+@pytest.mark.parametrize("rate_hz", [None, np.array(np.nan)])
+def test_it_is_said_which_rate_is_taken_where_none_is_known(tmp_path, rate_hz):
+    takes = load_takes(write(tmp_path / "t.npz", rate_hz=rate_hz))
+
+    (remark,) = takes.remarks
+    assert "'rate_hz' is missing: 100 Hz is taken" in remark
+
+
+@pytest.mark.parametrize("rate_hz", [20.0, 2000])
+def test_a_rate_at_which_gestures_can_be_told_is_taken(tmp_path, rate_hz):
+    takes = load_takes(write(tmp_path / "t.npz", rate_hz=np.array(rate_hz)))
+
+    assert (takes.rate_hz, takes.remarks) == (rate_hz, ())
+
+
 def test_what_is_optional_may_be_absent(tmp_path):
-    takes = load_takes(write(tmp_path / "t.npz", activation=None))
+    takes = load_takes(write(tmp_path / "t.npz", activation=None, rate_hz=None))
 
     assert takes.activation.tolist() == [0, 0]
     assert (takes.user, takes.session, takes.rate_hz) == ((), (), None)
@@ -112,6 +128,11 @@ DAMAGE = {
     "a label empty": ({"labels": np.array(["X+", ""])}, "'labels' is empty for take 1"),
     "rate zero": ({"rate_hz": np.array(0.0)}, "'rate_hz' must lie"),
     "rates": ({"rate_hz": np.array([100.0, 50.0])}, "'rate_hz' must be one number"),
+    "rate of nothing that moves": (
+        {"rate_hz": np.array(5.0)},
+        "is 5, outside 20 to 2000 Hz: correct",
+    ),
+    "rate of sound": ({"rate_hz": np.array(20_000)}, "is 20000, outside .* leave out samples"),
     "rate infinite": ({"rate_hz": np.array(np.inf)}, "'rate_hz' must lie"),
 }
 
@@ -371,3 +392,13 @@ def test_a_blow_within_the_range_of_sensors_is_read(tmp_path):
     samples[6] = [-16.0, 16.0, 16.0]
 
     assert load_takes(write(tmp_path / "t.npz", samples=samples)).samples[6, 0] == -16.0
+
+
+def test_takes_without_gravity_are_asked_about_when_they_go_far_beyond_what_hands_do(tmp_path):
+    made = make_takes(1, 6, 31)
+    save_takes(tmp_path / "g.npz", replace(made, samples=made.samples - [0.0, 0.0, 1.0]))
+    ms2 = (made.samples - [0.0, 0.0, 1.0]) * 9.80665
+    save_takes(tmp_path / "ms2.npz", replace(made, samples=ms2))
+
+    assert len(load_takes(tmp_path / "g.npz").remarks) == 1
+    assert "if the samples are in m/s2, divide" in load_takes(tmp_path / "ms2.npz").remarks[0]
