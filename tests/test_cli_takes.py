@@ -55,3 +55,25 @@ def test_takes_in_another_unit_are_refused_by_all_commands_with_the_remedy(
         code, out, (line,) = run(*arguments)
         assert (code, out) == (cli.FAILED, "")
         assert "m/s2; divide them by 9.80665" in line
+
+
+def test_a_model_of_the_papers_kind_is_said_to_be_for_another_rate(run: Run, tmp_path: Path):
+    model, paths = tmp_path / "m.json", {}
+    for rate_hz in (50.0, 100.0):
+        paths[rate_hz] = tmp_path / f"{rate_hz:g}.npz"
+        save_takes(paths[rate_hz], make_takes(1, 5, 7, rate_hz=rate_hz, gestures=("X+", "Y-")))
+    assert run("train", paths[50.0], "-o", model, "--preset", "small")[0] == cli.FINE
+
+    assert run("evaluate", model, paths[50.0])[2] == []
+    code, out, (line,) = run("evaluate", model, paths[100.0])
+
+    assert (code, out.startswith("Gesture")) == (cli.FINE, True)
+    assert line.startswith(f"gestureapp: {model}: the model was trained at 50 Hz")
+    assert "these takes are at 100 Hz" in line
+
+
+def test_a_model_that_follows_the_movement_is_for_any_rate(run: Run, tmp_path: Path):
+    path = tmp_path / "200.npz"
+    save_takes(path, make_takes(1, 2, 7, rate_hz=200.0))
+
+    assert run("evaluate", MODEL, path)[2] == []

@@ -137,7 +137,7 @@ def train(
         )
     learn = _train_onset if preset is Preset.DEFAULT else _train_paper
     found = learn(takes, preset, seed, progress, folds, is_validated)
-    record = replace(found.record, takes_from=takes_from)
+    record = replace(found.record, takes_from=takes_from, rate_hz=takes.rate_hz)
     people = set(takes.user)
     model = Model(
         kind=KIND_ONSET if preset is Preset.DEFAULT else KIND_PAPER,
