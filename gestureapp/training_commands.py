@@ -96,12 +96,16 @@ def _train_json(out: Path, model: "Model", left_out: int) -> str:
         "left_out": left_out,
         "training": dataclasses.asdict(model.training),
     }
+    if model.decision is not None:
+        facts["decision"] = dataclasses.asdict(model.decision)
     if (found := model.cross_validation) is not None:
         facts["cross_validation"] = {"folds": found.folds, **found.evaluation.as_json()}
     return json.dumps(facts)
 
 
 def _text(out: Path, model: "Model") -> str:
+    from gestureapp.recognition.calibration import promise_of
+
     record = model.training
     lines = [
         f"{out}: {record.n_takes} takes, loss {record.loss:.6f}",
@@ -109,6 +113,11 @@ def _text(out: Path, model: "Model") -> str:
     ]
     if (found := model.cross_validation) is not None:
         lines += [f"cross-validated {found.folds}:", found.evaluation.as_table()]
+    if model.decision is not None:
+        promise, why = promise_of(found.evaluation if found is not None else None)
+        at_once, in_the_end = model.decision.early, model.decision.last
+        lines.append(f"{promise.value}; {why}")
+        lines.append(f"an answer needs {at_once:g} at once, {in_the_end:g} in the end")
     return "\n".join(lines)
 
 

@@ -74,7 +74,7 @@ class OperatePage(QWidget):
             self._gesture.show_heard(self._guided.snapshot().heard)
         self._field.show_robot(snapshot.robot)
         used = None
-        if recognition is not None:
+        if recognition is not None and recognition.outputs:  # else no sample was used
             used = (recognition.window_start_s, recognition.window_end_s)
         now_s = snapshot.t_s
         self._right_plot.mark_window(used, now_s)

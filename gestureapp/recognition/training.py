@@ -183,7 +183,7 @@ def _train_onset(
     found = learn_onset(whole, division, base, seed, progress)
     record = TrainingRecord(
         preset=preset.value,
-        rule=f"{RULE}; {found.calibration.words}",
+        rule=RULE,
         cycles=found.steps,
         learning_rate=found.rate,
         seed=seed,

@@ -132,6 +132,16 @@ def test_one_take_of_each_gesture_is_enough_to_begin_with():
     assert evaluate(model, make_takes(1, 4, SEED, session=2)).recognised > 0.9
 
 
+def test_a_gesture_that_was_not_taught_is_not_heard_as_another():
+    taught = tuple(label for label in LABELS if not label.startswith("RZ"))
+
+    model = train(make_takes(1, 8, SEED, gestures=taught), seed=1)
+
+    turns = make_takes(1, 8, SEED, session=2, gestures=("RZ+", "RZ-"))
+    assert evaluate(model, turns).wrong < 0.1
+    assert evaluate(model, make_takes(1, 4, SEED, session=2, gestures=taught)).recognised > 0.9
+
+
 def test_of_other_gestures_five_takes_are_needed():
     with pytest.raises(NotEnoughTakes, match="only 4 of X\\+, 4 of poke"):
         train(other_takes(labels=("X+", "poke"), count=4))
