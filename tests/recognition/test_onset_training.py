@@ -10,7 +10,7 @@ from gestureapp.errors import ModelInvalid, NotEnoughTakes
 from gestureapp.gestures import LABELS
 from gestureapp.recognition import base, onset_training, training
 from gestureapp.recognition.base import load_base
-from gestureapp.recognition.hearing import evaluate
+from gestureapp.recognition.hearing import evaluate, hear
 from gestureapp.recognition.members import Steps
 from gestureapp.recognition.model_file import load_model, save_model
 from gestureapp.recognition.presets import Preset
@@ -138,7 +138,8 @@ def test_a_gesture_that_was_not_taught_is_not_heard_as_another():
     model = train(make_takes(1, 8, SEED, gestures=taught), seed=1)
 
     turns = make_takes(1, 8, SEED, session=2, gestures=("RZ+", "RZ-"))
-    assert evaluate(model, turns).wrong < 0.1
+    named = [answer for i in range(len(turns)) if (answer := hear(model, turns, i).label)]
+    assert len(named) <= 1
     assert evaluate(model, make_takes(1, 4, SEED, session=2, gestures=taught)).recognised > 0.9
 
 
