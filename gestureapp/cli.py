@@ -217,7 +217,7 @@ def _simulate_takes(options: argparse.Namespace) -> int:
             options.session,
             options.rate_hz,
             options.practised,
-            LABELS if options.gestures is None else options.gestures.split(","),
+            LABELS if options.gestures is None else _names(options.gestures),
         )
     except ValueError as error:
         sys.stderr.write(f"gestureapp: {error}\n")
@@ -242,10 +242,13 @@ def _benchmark(options: argparse.Namespace, open_window: "OpenWindow | None") ->
 def _benchmark_recognition(options: argparse.Namespace) -> int:
     from gestureapp.benchmark import measure_recognition
 
-    gestures = [label for label in options.gestures.split(",") if label]
-    report = measure_recognition(options.people, options.takes, gestures)
+    report = measure_recognition(options.people, options.takes, _names(options.gestures))
     _write(json.dumps(report.as_json()) if options.json else report.as_table())
     return FINE
+
+
+def _names(text: str) -> list[str]:
+    return [name.strip() for name in text.split(",") if name.strip()]
 
 
 def _benchmark_faults(options: argparse.Namespace, open_window: "OpenWindow | None") -> int:

@@ -96,12 +96,16 @@ def _train_json(out: Path, model: "Model", left_out: int) -> str:
         "left_out": left_out,
         "training": dataclasses.asdict(model.training),
     }
+    if model.decision is not None:
+        facts["decision"] = dataclasses.asdict(model.decision)
     if (found := model.cross_validation) is not None:
         facts["cross_validation"] = {"folds": found.folds, **found.evaluation.as_json()}
     return json.dumps(facts)
 
 
 def _text(out: Path, model: "Model") -> str:
+    from gestureapp.recognition.calibration import promise_of
+
     record = model.training
     lines = [
         f"{out}: {record.n_takes} takes, loss {record.loss:.6f}",
@@ -109,17 +113,25 @@ def _text(out: Path, model: "Model") -> str:
     ]
     if (found := model.cross_validation) is not None:
         lines += [f"cross-validated {found.folds}:", found.evaluation.as_table()]
+    if model.decision is not None:
+        promise, why = promise_of(found.evaluation if found is not None else None)
+        at_once, in_the_end = model.decision.early, model.decision.last
+        lines.append(f"{promise.value}; {why}")
+        lines.append(f"an answer needs {at_once:g} at once, {in_the_end:g} in the end")
     return "\n".join(lines)
 
 
 def _evaluate(options: argparse.Namespace) -> int:
-    from gestureapp.recognition.hearing import evaluate
+    from gestureapp.recognition.hearing import evaluate, find_other_rate
     from gestureapp.recognition.model_file import load_model
     from gestureapp.recognition.takes import load_takes
 
     takes = load_takes(options.takes)
-    evaluation = evaluate(load_model(options.model), takes)
+    model = load_model(options.model)
+    evaluation = evaluate(model, takes)
     _tell_about(takes)
+    if words := find_other_rate(model, takes):
+        _remark(options.model, words)
     _write(json.dumps(evaluation.as_json()) if options.json else evaluation.as_table())
     return 0
 
@@ -129,17 +141,22 @@ def _tell_about(takes: "TakeSet") -> int:
     from gestureapp.recognition.patterns import whole_takes
 
     for remark in takes.remarks:
-        sys.stderr.write(f"gestureapp: {takes.source}: {remark}\n")
+        _remark(takes.source, remark)
     whole = set(whole_takes(takes))
     short = [i for i in range(len(takes)) if i not in whole]
     if short:
         count = "1 take ends" if len(short) == 1 else f"{len(short)} takes end"
         labels = ", ".join(sorted({takes.labels[i] for i in short}))
-        sys.stderr.write(
-            f"gestureapp: {takes.source}: {count} before the third sample after the "
-            f"activation ({labels}); nothing can be learned there, nor recognised\n"
+        _remark(
+            takes.source,
+            f"{count} before the third sample after the activation ({labels}); nothing can be "
+            "learned there, nor recognised",
         )
     return len(short)
+
+
+def _remark(path: Path, words: str) -> None:
+    sys.stderr.write(f"gestureapp: {path}: {words}\n")
 
 
 def _check_place(out: Path) -> None:

@@ -6,7 +6,7 @@ from PySide6.QtWidgets import QFrame, QHBoxLayout, QProgressBar, QVBoxLayout, QW
 from gestureapp.gestures import gesture
 from gestureapp.guided.controls import GuidedControls
 from gestureapp.guided.values import Heard
-from gestureapp.recognition.values import Recognition
+from gestureapp.recognition.values import Recognition, two_digits
 from gestureapp.robot.values import Direction
 from ui.direction_view import DirectionView
 from ui.keep_heard import KeepHeard
@@ -105,7 +105,9 @@ class GesturePanel(QFrame):
         self._words.setText(words)
         percent = round(100 * min(1.0, max(0.0, certainty or 0.0)))
         self._certainty.setValue(percent)
-        self._certainty.setFormat("" if certainty is None else f"certainty {certainty:.2f}{needed}")
+        self._certainty.setFormat(
+            "" if certainty is None else f"certainty {two_digits(certainty)}{needed}"
+        )
         self._certainty.setAccessibleName(f"Certainty {percent} %{needed}")
         self._time.setText(time)
 

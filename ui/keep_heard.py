@@ -56,7 +56,7 @@ class KeepHeard(QWidget):
         mine = heard if heard.is_tried is self._is_tried else Heard()
         words = "That was right" if was_right else f"I did {mine.label}"
         self._button.setVisible(mine.can_keep)
-        self._button.setText(f"{words}: keep as a take")
+        self._button.setText("Try again" if mine.text else f"{words}: keep as a take")
         self._button.setAccessibleName(f"{words}: keep it as a take of {mine.label}")
         self._words.setText(mine.text)
         self._heard = mine

@@ -135,10 +135,10 @@ class MainWindow(QMainWindow):
         self.poll()
 
     def stop(self) -> None:
-        """STOP was pressed, by mouse or key. A batch is put on hold once the stop is out."""
+        """STOP was pressed, by mouse or key. Recording and trying end once the stop is out."""
         self._cell.stop()
         if self._train is not None:
-            self._train.pause()
+            self._train.leave()
 
     def tell_last_time(self, last_time: LastTime) -> None:
         """Show what the guardian did when no window could, until it is put away."""

@@ -75,7 +75,7 @@ class OperatePage(QWidget):
         self._field.show_settings(self._cell.settings.robot)
         self._field.show_robot(snapshot.robot)
         used = None
-        if recognition is not None:
+        if recognition is not None and recognition.outputs:  # else no sample was used
             used = (recognition.window_start_s, recognition.window_end_s)
         now_s = snapshot.t_s
         self._right_plot.mark_window(used, now_s)

@@ -5,7 +5,7 @@ from PySide6.QtGui import QColor, QFont, QPainter, QPaintEvent, QPen
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
 from gestureapp.gestures import LABELS
-from gestureapp.recognition.values import NO_GESTURE, Candidate
+from gestureapp.recognition.values import NO_GESTURE, Candidate, two_digits
 from ui.theme import SMALL_PX, colours_of
 
 _LABEL_PX = 15
@@ -14,6 +14,8 @@ _NUMBERED = 0.25
 """From here on a bar has its number: what could be one of two candidates."""
 _ROOMY = 26
 """Pixels for each bar; with less the labels are a pixel smaller."""
+_EMPTY = (*LABELS, NO_GESTURE)
+"""Before the first answer and where the network was not asked."""
 _NONE_SHARE = 1.2
 """The word "none" is wider than the labels of gestures."""
 
@@ -52,7 +54,7 @@ class OutputBars(QWidget):
         if (outputs, thresholds) == (self._outputs, self._thresholds):
             return
         self._outputs, self._thresholds = outputs, thresholds
-        spoken = ", ".join(f"{c.label} {c.confidence:.2f}" for c in outputs) or "none"
+        spoken = ", ".join(c.words for c in outputs) or "none"
         needed = " or ".join(f"{threshold:.2f}" for threshold in thresholds)
         self.setAccessibleName(
             f"Certainty of each gesture: {spoken}" + (f"; needed: {needed}" if needed else "")
@@ -64,7 +66,7 @@ class OutputBars(QWidget):
         painter = QPainter(self)
         colours = colours_of(self.palette())
         font = QFont(self.font())
-        candidates = self._outputs or tuple(Candidate(label, 0.0) for label in LABELS)
+        candidates = self._outputs or tuple(Candidate(label, 0.0) for label in _EMPTY)
         is_narrow = self.width() < _ROOMY * len(candidates)
         font.setPixelSize(SMALL_PX - (2 if is_narrow else 1))
         painter.setFont(font)
@@ -100,4 +102,4 @@ class OutputBars(QWidget):
         painter.drawText(below, whole, candidate.label)
         if is_numbered:
             above = QRectF(slot.left() - 6, slot.top() - _NUMBER_PX, slot.width() + 12, _NUMBER_PX)
-            painter.drawText(above, Qt.AlignmentFlag.AlignCenter, f"{candidate.confidence:.2f}")
+            painter.drawText(above, Qt.AlignmentFlag.AlignCenter, two_digits(candidate.confidence))

@@ -96,14 +96,10 @@ class TrainPage(QWidget):
         super().showEvent(event)
         self._is_entered = True
 
-    def pause(self) -> None:
-        """Put a batch under way on hold; nothing when none is."""
+    def leave(self) -> None:
+        """Hold a batch and end a live test: STOP was pressed, or nobody would see them go on."""
         if is_running(self._guided.snapshot().phase):
             self._guided.pause()
-
-    def leave(self) -> None:
-        """The page or its step goes out of sight: nothing is to be recorded unseen."""
-        self.pause()
         if self.newest.trying.is_on:
             self._guided.stop_trying()
 

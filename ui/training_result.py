@@ -50,9 +50,8 @@ class TrainingResultView(QWidget):
         is_poor = level_of(evaluation) is Reliance.POOR
         self._mark.setVisible(is_poor)
         self._mark.show_level(Level.ATTENTION)
-        self._how.setText(
-            f"Every take was heard by a network that had not seen it: {result.folds}."
-        )
+        how = f"Every take was heard by a network that had not seen it: {result.folds}."
+        self._how.setText(f"{how} {result.promise}".strip())
         self._table.show_evaluation(evaluation)
         self._matrix.show_evaluation(evaluation)
         self._facts.show_facts(result.facts)

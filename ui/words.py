@@ -225,12 +225,13 @@ def pose_age_text(robot: RobotView) -> str:
 
 
 def decision_text(recognition: Recognition) -> str:
-    """How long the decision took: from the onset where it is known, else from the first sample."""
+    """How long the decision took: from the onset where it is known, else from the activation."""
+    begun_s, what = recognition.window_start_s, "first sample"
     if recognition.onset_s is not None:
-        onset_ms = (recognition.decided_s - recognition.onset_s) * 1000
-        return f"decided {onset_ms:.0f} ms after the onset"
-    first_ms = (recognition.decided_s - recognition.window_start_s) * 1000
-    return f"decided {first_ms:.0f} ms after the first sample"
+        begun_s, what = recognition.onset_s, "onset"
+    elif recognition.activation_s is not None:
+        begun_s, what = recognition.activation_s, "activation"
+    return f"decided {(recognition.decided_s - begun_s) * 1000:.0f} ms after the {what}"
 
 
 def needed_text(certainty: float, thresholds: tuple[float, ...]) -> str:
@@ -247,7 +248,7 @@ def needed_text(certainty: float, thresholds: tuple[float, ...]) -> str:
 
 def not_recognised_text(recognition: Recognition) -> str:
     """Why nothing was recognised, with the two best where the reason does not name them."""
-    best = ", ".join(f"{c.label}\u00a0{c.confidence:.2f}" for c in recognition.best)
+    best = ", ".join(c.words.replace(" ", "\u00a0") for c in recognition.best)
     reason = recognition.reason or "no clear gesture"
     return f"{reason} ({best})" if best and not reason.endswith(")") else reason
 

@@ -1,10 +1,11 @@
 """The shared base model: trained from simulated people and non-gestures, shipped as a resource.
 
 It stands above simulation and training, which do not know each other. ``gestureapp train-base``
-writes both files of ``resources/models``; nobody needs to but who changes the features or the
+writes the files of ``resources/models``; nobody needs to but who changes the features or the
 simulated people.
 """
 
+from dataclasses import replace
 from datetime import UTC, datetime
 from pathlib import Path
 
@@ -15,6 +16,7 @@ from gestureapp import __version__
 from gestureapp.clock import monotonic
 from gestureapp.gestures import GESTURES, LABELS
 from gestureapp.recognition.base import BASE, NEGATIVES
+from gestureapp.recognition.base import GESTURES as GESTURES_FILE
 from gestureapp.recognition.decision import EARLY_OF_OTHERS, Decision
 from gestureapp.recognition.ensemble import Ensemble
 from gestureapp.recognition.members import Progress, Steps, learn, new_layers, no_progress
@@ -50,6 +52,8 @@ STEPS = Steps(count=3500, rate=4e-3, batch=1024, decay=1e-4)
 VARIATION = Variation(tilt_deg=3.0, gain=0.03, offset_g=0.01, vigour=0.05)
 NEGATIVES_SHIPPED = 480
 """Takes of non-gestures that every person's training is shown."""
+GESTURES_SHIPPED = (40, 2)
+"""People, and takes of each gesture by each: shown as "none" where a gesture was not taught."""
 NEGATIVES_COUNT = 3
 """Views of non-gestures are shown so many times as often as they are many."""
 OTHER_HAND = tuple(
@@ -96,7 +100,7 @@ def train_base(seed: int = SEED, progress: Progress = no_progress) -> Ensemble:
 
 
 def make_base(folder: Path, seed: int = SEED, progress: Progress = no_progress) -> Model:
-    """Train the base and write both files of ``resources/models``.
+    """Train the base and write the files of ``resources/models``.
 
     Raises:
         DiskFull: no room is left there.
@@ -105,6 +109,7 @@ def make_base(folder: Path, seed: int = SEED, progress: Progress = no_progress) 
     begun_s = monotonic()
     takes = make_negatives(NEGATIVES_SHIPPED, seed)
     save_takes(folder / NEGATIVES.name, takes)
+    save_takes(folder / GESTURES_FILE.name, shipped_gestures(seed))
     losses: list[float] = []
 
     def told(done: int, total: int, loss: float) -> None:
@@ -139,6 +144,15 @@ def make_base(folder: Path, seed: int = SEED, progress: Progress = no_progress) 
     )
     save_model(folder / BASE.name, model)
     return model
+
+
+def shipped_gestures(seed: int) -> TakeSet:
+    """Takes of every gesture by the first of the base's ordinary people, nobody's name on them."""
+    people, count = GESTURES_SHIPPED
+    takes = crowd_takes(seed, 0)
+    each = CROWDS[0].takes
+    rows = [row for row in range(people * len(LABELS) * each) if row % each < count]
+    return replace(takes.select(rows), user=())
 
 
 def _gestures(seed: int, rng: np.random.Generator) -> tuple[Views, I64]:

@@ -11,10 +11,9 @@ import numpy as np
 
 from gestureapp.benchmark import peers
 from gestureapp.benchmark.report import machine
-from gestureapp.errors import ModelError
+from gestureapp.benchmark.splits import Part, of_person, only, splits_of
 from gestureapp.recognition.base import BASE
 from gestureapp.recognition.evaluation import Evaluation, tally
-from gestureapp.recognition.folds import FoldBy, divide
 from gestureapp.recognition.hearing import hear
 from gestureapp.recognition.model_file import Model, load_model
 from gestureapp.recognition.presets import Preset
@@ -38,8 +37,6 @@ Answer = tuple[str | None, float]
 """What was heard, and when, from the take's begin, in s."""
 Hear = Callable[[TakeSet], list[Answer]]
 Learn = Callable[[TakeSet], Hear]
-Part = tuple[TakeSet, TakeSet]
-"""What is learned from, and what is heard."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -104,8 +101,8 @@ def measure_simulated(n_people: int, seed: int = SEED) -> ContestReport:
     first = make_takes(n_people, TRAINED_ON, seed, session=1)
     later = [make_takes(n_people, TESTED_ON, seed, session=day) for day in LATER_DAYS]
     names = list(dict.fromkeys(first.user))
-    own = {name: _of(first, name) for name in names}
-    parts = [(own[name], _of(day, name)) for name in names for day in later]
+    own = {name: of_person(first, name) for name in names}
+    parts = [(own[name], of_person(day, name)) for name in names for day in later]
     few = parts[: FEW_PEOPLE * len(later)]
     columns = [(name, _score(parts, learn)) for name, learn in (*_peers(), (OURS, learn_ours))]
     days = f"{TRAINED_ON} takes of each gesture to train, {len(later)} later days"
@@ -130,21 +127,18 @@ def measure_file(path: Path, gestures: Sequence[str] = ()) -> ContestReport:
 
     Raises:
         RecordingInvalid: the file cannot be read.
-        NotEnoughTakes: too few are left of a gesture.
+        NotEnoughTakes: too few are left of a gesture; says for which person or fold.
+        ModelMismatch: one of ``gestures`` is not in the file.
         ModelError: the takes name neither repetition nor person.
     """
-    takes = load_takes(path)
-    if gestures:
-        takes = takes.select([i for i, label in enumerate(takes.labels) if label in gestures])
+    takes = only(load_takes(path), gestures)
+    splits, notes = splits_of(takes)
     contests = []
-    for words, parts in _splits(takes):
-        columns = [(name, _score(parts, learn)) for name, learn in (*_peers(), (OURS, learn_ours))]
-        contests.append(Contest(f"{path.name}, {words}", columns))
-    if not contests:
-        raise ModelError(
-            path, "the takes name neither 'repetition' nor 'user': nothing to split by"
-        )
-    return ContestReport(contests, [*takes.remarks, *_notes()])
+    for split in splits:
+        learners = (*_peers(), (OURS, learn_ours))
+        columns = [(name, _score(split.parts, learn)) for name, learn in learners]
+        contests.append(Contest(f"{path.name}, {split.words}", columns))
+    return ContestReport(contests, [*takes.remarks, *notes, *_notes()])
 
 
 def learn_ours(takes: TakeSet) -> Hear:
@@ -260,26 +254,6 @@ def _by_setting(parts: Sequence[Part]) -> Iterator[tuple[str, Evaluation]]:
         yield f"{early:g} / {last:g}", _score(parts, learn)
 
 
-def _splits(takes: TakeSet) -> Iterator[tuple[str, list[Part]]]:
-    users = list(dict.fromkeys(takes.user))
-    alone = [_of(takes, user) for user in users] or [takes]
-    if len(set(takes.repetition)) > 1:
-        parts = [part for own in alone for part in _folds(own, FoldBy.REPETITION)]
-        yield "each person alone, by repetition", parts
-    if len(users) > 1:
-        yield "one person left out", list(_folds(takes, FoldBy.USER))
-
-
-def _folds(takes: TakeSet, by: FoldBy) -> Iterator[Part]:
-    division = divide(takes, by)
-    for number in range(division.n_folds):
-        is_out = division.fold == number
-        yield (
-            takes.select(np.flatnonzero(~is_out).tolist()),
-            takes.select(np.flatnonzero(is_out).tolist()),
-        )
-
-
 def _first(takes: TakeSet, count: int) -> TakeSet:
     """The first so many takes of each gesture."""
     seen: dict[str, int] = {}
@@ -289,10 +263,6 @@ def _first(takes: TakeSet, count: int) -> TakeSet:
         if seen[label] <= count:
             rows.append(row)
     return takes.select(rows)
-
-
-def _of(takes: TakeSet, user: str) -> TakeSet:
-    return takes.select([i for i, name in enumerate(takes.user) if name == user])
 
 
 def _notes() -> list[str]:

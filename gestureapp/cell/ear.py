@@ -7,6 +7,7 @@ from gestureapp.cell import events as e
 from gestureapp.cell.records import Record, Recorder, Topic, fields_of
 from gestureapp.errors import ModelError
 from gestureapp.gestures import LABELS
+from gestureapp.recognition.calibration import promise_of
 from gestureapp.recognition.kinds import recogniser_for
 from gestureapp.recognition.model_file import Model, load_model
 from gestureapp.recognition.values import Recogniser, Recognition
@@ -69,7 +70,11 @@ def describe_model(model: Model, name: str = "") -> str:
     if model.live is not None:
         share = 100.0 * model.live.recognised / model.live.n
         live = f"tried live: {share:.0f} % of {model.live.n}"
-    return f"{model.person or name}, {len(model.labels)} gestures, {live}"
+    parts = [model.person or name, f"{len(model.labels)} gestures", live]
+    if model.decision is not None:
+        found = model.cross_validation
+        parts.append(promise_of(found.evaluation if found is not None else None)[0].value)
+    return ", ".join(parts)
 
 
 class Ear:

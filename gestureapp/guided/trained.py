@@ -8,7 +8,7 @@ from typing import Final
 import numpy as np
 
 from gestureapp.errors import ModelError, RecordingError
-from gestureapp.guided.trained_words import facts_of, words_of
+from gestureapp.guided.trained_words import facts_of, promise_words, words_of
 from gestureapp.guided.values import GuidedSnapshot, TrainingResult
 from gestureapp.recognition.evaluation import tally
 from gestureapp.recognition.model_file import Model, load_model
@@ -57,6 +57,7 @@ def result_of(model: Model) -> TrainingResult:
         folds="" if validation is None else validation.folds,
         facts=facts_of(model),
         duration_s=model.training.duration_s,
+        promise=promise_words(model),
     )
 
 

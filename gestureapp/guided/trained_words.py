@@ -15,6 +15,7 @@ from enum import Enum
 
 import numpy as np
 
+from gestureapp.recognition.calibration import promise_of
 from gestureapp.recognition.ensemble import Ensemble
 from gestureapp.recognition.evaluation import Evaluation
 from gestureapp.recognition.model_file import Model
@@ -70,6 +71,15 @@ def words_of(evaluation: Evaluation) -> tuple[str, ...]:
     )
     hints = sorted(_hints(evaluation), key=lambda hint: -hint.weight)[:MOST_HINTS]
     return summary, *(hint.text for hint in hints), *_few(evaluation)
+
+
+def promise_words(model: Model) -> str:
+    """Whether at most 1 in 200 answers is wrong, and on what that rests; empty for other kinds."""
+    if model.decision is None:
+        return ""
+    found = None if model.cross_validation is None else model.cross_validation.evaluation
+    promise, why = promise_of(found)
+    return f"{promise.value.capitalize()}; {why}."
 
 
 def missing_words(labels: Iterable[str]) -> str:

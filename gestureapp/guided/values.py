@@ -191,6 +191,8 @@ class TrainingResult:
         folds: How it was cut, in words: ``by session: 3 sessions``.
         facts: The technical part: name and value, in the order to show.
         duration_s: From the press to the written model, the start of the process included.
+        promise: Whether at most 1 in 200 answers is wrong, and on what that rests; empty for models
+            that promise nothing.
     """
 
     words: tuple[str, ...]
@@ -198,6 +200,7 @@ class TrainingResult:
     folds: str
     facts: tuple[tuple[str, str], ...]
     duration_s: float
+    promise: str = ""
 
 
 @dataclass(frozen=True, slots=True)

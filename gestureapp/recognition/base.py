@@ -19,6 +19,7 @@ F64 = NDArray[np.float64]
 
 FOLDER = Path(gestureapp.__file__).resolve().parent.parent / "resources" / "models"
 BASE, NEGATIVES = FOLDER / "base.json", FOLDER / "negatives.npz"
+GESTURES = FOLDER / "gestures.npz"
 
 
 @dataclass(frozen=True, slots=True)
@@ -29,11 +30,13 @@ class Base:
         labels: The gestures that the base knows; one more output is "none of them".
         ensemble: Its network, one member.
         negatives: Takes of what is no gesture; their labels say what it is.
+        gestures: Some takes of every gesture, by people of the base.
     """
 
     labels: tuple[str, ...]
     ensemble: Ensemble
     negatives: TakeSet
+    gestures: TakeSet
 
     @property
     def layers(self) -> Layers:
@@ -44,6 +47,16 @@ class Base:
     def knows(self, labels: Sequence[str]) -> bool:
         """Whether all of these are gestures of the base."""
         return set(labels) <= set(self.labels)
+
+    def untaught(self, labels: Sequence[str]) -> TakeSet | None:
+        """Takes of the gestures that are not among these, to learn that they are none of them.
+
+        None when all are; and with gestures of other names, as any of them may be one of these.
+        """
+        if not self.knows(labels) or set(labels) == set(self.labels):
+            return None
+        rows = [i for i, label in enumerate(self.gestures.labels) if label not in labels]
+        return self.gestures.select(rows)
 
     def columns(self, labels: Sequence[str]) -> list[int]:
         """The base's outputs for these gestures, and for "none of them"."""
@@ -64,9 +77,9 @@ def load_base() -> Base:
 
     Raises:
         ModelInvalid: the base model cannot be read, or is none.
-        RecordingInvalid: the takes of what is no gesture cannot be read.
+        RecordingInvalid: the takes that come with it cannot be read.
     """
     model = load_model(BASE)
     if not isinstance(model.network, Ensemble):
         raise ModelInvalid(BASE, "is no base model; install the application again")
-    return Base(model.labels, model.network, load_takes(NEGATIVES))
+    return Base(model.labels, model.network, load_takes(NEGATIVES), load_takes(GESTURES))

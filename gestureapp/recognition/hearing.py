@@ -7,11 +7,14 @@ from gestureapp.errors import ModelMismatch
 from gestureapp.recognition.evaluation import Evaluation, tally
 from gestureapp.recognition.kinds import recogniser_for
 from gestureapp.recognition.model_file import Model
+from gestureapp.recognition.model_weights import KIND_PAPER
 from gestureapp.recognition.takes import RATE_UNKNOWN_HZ, TakeSet
 from gestureapp.recognition.values import SILENT_AFTER_S, Recogniser, Recognition
 
 TICK_S = 0.01
 """After the end of a take the recogniser is let know so often that time goes on."""
+RATE_OFF = 0.1
+"""Relative: a sensor's clock is off by far less, another setting of its rate by far more."""
 
 
 def evaluate(model: Model, takes: TakeSet) -> Evaluation:
@@ -30,6 +33,19 @@ def evaluate(model: Model, takes: TakeSet) -> Evaluation:
         raise ModelMismatch(takes.source, reason)
     answers = [hear(model, takes, i) for i in range(len(takes))]
     return count_answers(model.labels, takes, answers)
+
+
+def find_other_rate(model: Model, takes: TakeSet) -> str:
+    """That takes come at another rate than a model can be used at, in words; empty when not."""
+    trained_hz, rate_hz = model.training.rate_hz, takes.rate_hz or RATE_UNKNOWN_HZ
+    if model.kind != KIND_PAPER or trained_hz is None:
+        return ""
+    if abs(rate_hz - trained_hz) <= RATE_OFF * trained_hz:
+        return ""
+    return (
+        f"the model was trained at {trained_hz:g} Hz and its kind is for that rate only; these "
+        f"takes are at {rate_hz:g} Hz: train one from takes at this rate"
+    )
 
 
 def hear(model: Model, takes: TakeSet, index: int) -> Recognition:

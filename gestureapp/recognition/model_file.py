@@ -54,6 +54,8 @@ class TrainingRecord:
         loss: Final error: half the squared error summed over the outputs, averaged over the takes.
         duration_s: How long it took.
         takes_from: Where the takes came from, in words.
+        rate_hz: Sample rate of the takes; None when unknown. A network of kind ``paper`` is for
+            sensors of this rate.
     """
 
     preset: str
@@ -65,6 +67,7 @@ class TrainingRecord:
     loss: float
     duration_s: float
     takes_from: str = ""
+    rate_hz: float | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -274,6 +277,7 @@ def _training(record: Mapping[str, object]) -> TrainingRecord:
         loss=number_in(record, "loss"),
         duration_s=number_in(record, "duration_s"),
         takes_from=text_in(record, "takes_from"),
+        rate_hz=None if record.get("rate_hz") is None else number_in(record, "rate_hz"),
     )
 
 

@@ -83,10 +83,12 @@ class Follower:
 
     @property
     def step_s(self) -> float:
-        """Mean time between the samples of the last second; 0 before the second one."""
-        n = self._end - self._begin
-        span_s = self._times[self._end - 1] - self._times[self._begin] if n > 1 else 0.0
-        return float(span_s) / max(n - 1, 1)
+        """Usual time between two samples of the last second; 0 before the second one.
+
+        Their median: a gap in the stream does not lengthen it.
+        """
+        times = self._times[self._begin : self._end]
+        return float(np.median(np.diff(times))) if len(times) > 1 else 0.0
 
     @property
     def is_posture(self) -> bool:

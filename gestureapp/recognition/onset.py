@@ -28,6 +28,8 @@ GIVE_UP_S = 1.5
 """Without an onset for so long after the activation: no movement."""
 STALE_S = 0.08
 """The last question counts at the end of the budget when it was asked less than this before."""
+MOST_G = 100.0
+"""No accelerometer worn on an arm reads more."""
 JUST_S = 1e-9
 
 MOVING_BEFORE = "the right arm was moving before the activation"
@@ -99,8 +101,10 @@ class OnsetRecogniser:
     def feed(self, t_s: float, accel_g: Accel) -> Recognition | None:
         """Take a sample of the right arm; the answer, once it is sure or the budget is over."""
         request = self._request
+        if not math.isfinite(t_s):
+            return None
         is_asked = request is not None and t_s >= request.activation_s - JUST_S
-        if not all(map(math.isfinite, accel_g)):
+        if not all(abs(value) <= MOST_G for value in accel_g):
             return self._answer(request, t_s, None, NOT_A_NUMBER) if request and is_asked else None
         self._follower.feed(t_s, accel_g)
         if request is None or not is_asked:

@@ -20,6 +20,7 @@ from numpy.typing import NDArray
 from gestureapp.errors import RecordingInvalid
 from gestureapp.recognition.files import write_atomically
 from gestureapp.recognition.marked_takes import add_gravity, put_right
+from gestureapp.recognition.readings import find_doubts, find_fault
 
 F64 = NDArray[np.float64]
 I64 = NDArray[np.int64]
@@ -35,6 +36,9 @@ beside these); NotImplementedError is a compression that this Python cannot read
 
 RATE_UNKNOWN_HZ = 100.0
 """Taken for takes of unknown rate: the paper's."""
+RATE_UNKNOWN = (
+    f"'rate_hz' is missing: {RATE_UNKNOWN_HZ:g} Hz is taken, times are only as right as that"
+)
 
 
 @dataclass(frozen=True, slots=True)
@@ -113,7 +117,8 @@ def load_takes(path: Path) -> TakeSet:
     """Read takes from an NPZ file. Nothing in the file is executed.
 
     Raises:
-        RecordingInvalid: the file cannot be read, is no NPZ or is damaged; says what and where.
+        RecordingInvalid: the file cannot be read, is no NPZ, is damaged, not in g or at no usable
+            rate; says what and where.
     """
     arrays = _read_arrays(path)
     for name in ("samples", "offsets", "labels"):
@@ -161,21 +166,24 @@ def _take_set(arrays: Mapping[str, NDArray[np.generic]], path: Path) -> TakeSet:
         rate_hz=_rate(arrays.get("rate_hz")),
         source=path,
     )
+    if fault := find_fault(takes.samples, takes.offsets, takes.rate_hz):
+        raise ValueError(fault)
+    unknown = (RATE_UNKNOWN,) if takes.rate_hz is None else ()
+    takes = replace(takes, remarks=(*unknown, *find_doubts(takes.samples, takes.offsets)))
     if not is_marked:
         return _with_gravity(takes)
     turn = arrays.get("R_device_to_paper")
     samples, remarks = put_right(
         takes.samples,
         takes.offsets,
-        takes.activation,
         None if turn is None else _numbers("R_device_to_paper", turn),
     )
-    return replace(takes, samples=samples, remarks=remarks)
+    return replace(takes, samples=samples, remarks=(*takes.remarks, *remarks))
 
 
 def _with_gravity(takes: TakeSet) -> TakeSet:
-    samples, remarks = add_gravity(takes.samples, takes.offsets, takes.activation)
-    return replace(takes, samples=samples, remarks=remarks) if remarks else takes
+    samples, remarks = add_gravity(takes.samples, takes.offsets)
+    return replace(takes, samples=samples, remarks=(*takes.remarks, *remarks))
 
 
 def _chosen(texts: tuple[str, ...], indices: Sequence[int]) -> tuple[str, ...]:

@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 
 from gestureapp import __version__
 from gestureapp.clock import Clock, monotonic
+from gestureapp.errors import RecordingInvalid
 from gestureapp.recognition.base import load_base
 from gestureapp.recognition.decision import Decision
 from gestureapp.recognition.ensemble import Ensemble
@@ -41,6 +42,7 @@ from gestureapp.recognition.onset_training import RULE, learn_onset, refuse_few
 from gestureapp.recognition.patterns import REST_G, Patterns, patterns_of, whole_takes
 from gestureapp.recognition.presets import Preset
 from gestureapp.recognition.takes import TakeSet
+from gestureapp.recognition.values import NO_GESTURE
 from gestureapp.recognition.window import INPUT_ONSET
 
 F64 = NDArray[np.float64]
@@ -122,13 +124,20 @@ def train(
     Raises:
         NotEnoughTakes: says of which gesture there are too few.
         ModelInvalid: the shared base model cannot be used.
-        RecordingInvalid: the base's takes of what is no gesture cannot be used.
+        RecordingInvalid: a gesture is called ``none``, or the base's takes of what is no gesture
+            cannot be used.
         ValueError: the takes cannot be divided by ``folds``.
     """
     begun_s = clock()
+    if NO_GESTURE in takes.labels:
+        raise RecordingInvalid(
+            takes.source,
+            f"holds takes of a gesture called {NO_GESTURE!r}, which stands for no gesture at all: "
+            "rename it, or leave them out",
+        )
     learn = _train_onset if preset is Preset.DEFAULT else _train_paper
     found = learn(takes, preset, seed, progress, folds, is_validated)
-    record = replace(found.record, takes_from=takes_from)
+    record = replace(found.record, takes_from=takes_from, rate_hz=takes.rate_hz)
     people = set(takes.user)
     model = Model(
         kind=KIND_ONSET if preset is Preset.DEFAULT else KIND_PAPER,
@@ -174,7 +183,7 @@ def _train_onset(
     found = learn_onset(whole, division, base, seed, progress)
     record = TrainingRecord(
         preset=preset.value,
-        rule=f"{RULE}; {found.calibration.words}",
+        rule=RULE,
         cycles=found.steps,
         learning_rate=found.rate,
         seed=seed,

@@ -10,7 +10,14 @@ SILENT_AFTER_S: Final = 0.25
 """Without the right arm's samples for so long after the activation it is silent."""
 SILENT: Final = "right arm silent"
 NO_MOVEMENT: Final = "no movement of the right arm"
+_HAIR: Final = 1e-9
+"""0.29 times 100 is 28.999…"""
 NOT_A_NUMBER: Final = "a reading of the right arm is not a number"
+
+
+def two_digits(confidence: float) -> str:
+    """``0.49``: rounded down, so that what is under a threshold does not read as at it."""
+    return f"{math.floor(confidence * 100 + _HAIR) / 100:.2f}"
 
 
 @dataclass(frozen=True, slots=True)
@@ -22,8 +29,8 @@ class Candidate:
 
     @property
     def words(self) -> str:
-        """``X+ 0.49``: rounded down, so that what is under a threshold does not read as at it."""
-        return f"{self.label} {math.floor(self.confidence * 100) / 100:.2f}"
+        """``X+ 0.49``."""
+        return f"{self.label} {two_digits(self.confidence)}"
 
 
 @dataclass(frozen=True, slots=True)

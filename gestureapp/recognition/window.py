@@ -73,8 +73,8 @@ def inputs_of(moment: Moment) -> F64:
     size = _length(cells).max(axis=-2)
     lead = full.shape[:-1]
     parts = (
-        (cells / (size[..., None] + SIZE_G)).reshape(*lead, -1),
-        np.tanh(cells).reshape(*lead, -1),
+        (cells / (size[..., None] + SIZE_G)).reshape(*lead, 3 * N_CELLS),
+        np.tanh(cells).reshape(*lead, 3 * N_CELLS),
         full,
         velocity,
         velocity / (speed + VELOCITY_G),

@@ -8,7 +8,7 @@ import pytest
 from gestureapp import cli
 from gestureapp.benchmark import contest, peers
 from gestureapp.benchmark.contest import at_onset, measure_file, measure_simulated
-from gestureapp.errors import ModelError
+from gestureapp.errors import ModelError, NotEnoughTakes
 from gestureapp.recognition import onset_training, training
 from gestureapp.recognition.members import Steps
 from gestureapp.recognition.takes import TakeSet, save_takes
@@ -62,6 +62,70 @@ def test_a_file_is_heard_by_repetition_and_by_person(tmp_path, capsys):
         assert {"paper, from activation", "paper, from onset", "ours"} <= set(table["columns"])
         assert all(column["n"] == 40 for column in table["columns"].values())
         assert table["columns"]["paper, from onset"]["recognised"] == 1.0
+
+
+@pytest.mark.usefixtures("few_cycles")
+def test_who_made_every_gesture_once_is_left_out_alone_and_named(tmp_path, monkeypatch):
+    path = tmp_path / "takes.npz"
+    monkeypatch.setattr(contest, "_peers", lambda: ())
+    who = {"user": ("a",) * 26 + ("b",) * 14, "repetition": ("0",) * 13 + ("1",) * 13 + ("0",) * 14}
+    save_takes(path, pushes(**who))
+
+    report = measure_file(path)
+
+    alone, others = report.contests
+    assert (dict(alone.columns)["ours"].n, dict(others.columns)["ours"].n) == (26, 40)
+    assert "Left out alone, with one repetition only: b." in report.as_table()
+
+
+@pytest.mark.parametrize(
+    ("who", "words"),
+    [
+        (
+            WHO | {"repetition": (("0",) * 16 + ("1",) * 4) * 2},
+            r"\(a alone, without repetition 0\): only 2 of fro",
+        ),
+        ({"user": ("a",) * 36 + ("b",) * 4}, r"takes\.npz \(without a\): only 2 of fro, 2 of to"),
+        ({"user": ("a", "b") * 20}, r"takes\.npz \(without a\): takes of at least two gestures"),
+    ],
+    ids=["a fold of a person", "the others", "one gesture each"],
+)
+def test_with_too_few_takes_the_person_or_fold_is_named_before_anybody_learns(
+    tmp_path, monkeypatch, who, words
+):
+    monkeypatch.setattr(contest, "_score", None)
+    save_takes(tmp_path / "takes.npz", pushes(**who))
+
+    with pytest.raises(NotEnoughTakes, match=words):
+        measure_file(tmp_path / "takes.npz")
+
+
+def test_a_gesture_that_the_file_does_not_hold_is_refused_by_name(tmp_path, capsys):
+    path = tmp_path / "takes.npz"
+    save_takes(path, pushes(**WHO))
+
+    asked = ("--takes", str(path), "--gestures", "to, frow , fro")
+    assert cli.main(["benchmark", "recognition", *asked]) == cli.FAILED
+
+    expected = f"gestureapp: {path}: not in this file: frow; there are: to, fro\n"
+    assert capsys.readouterr().err == expected
+
+
+def test_names_of_gestures_may_have_blanks_between_them(tmp_path, monkeypatch, capsys):
+    path, heard = tmp_path / "takes.npz", []
+    monkeypatch.setattr(contest, "_peers", lambda: ())
+    monkeypatch.setattr(contest, "learn_ours", lambda seen: heard.append(seen) or _never)
+    save_takes(path, pushes(**WHO))
+
+    asked = ("--takes", str(path), "--gestures", " fro, to ")
+    assert cli.main(["benchmark", "recognition", *asked]) == cli.FINE
+
+    assert {label for seen in heard for label in seen.labels} == {"to", "fro"}
+    assert "| to | 0.0 (0.0) |" in capsys.readouterr().out
+
+
+def _never(takes):
+    return [(None, 0.0)] * len(takes)
 
 
 @pytest.mark.usefixtures("few_cycles")

@@ -1,6 +1,7 @@
 """The early decision on tables of probabilities, and the thresholds that keep the promise."""
 
 import numpy as np
+import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -9,12 +10,15 @@ from gestureapp.recognition.base import load_base
 from gestureapp.recognition.calibration import (
     FEWEST,
     MOST_WRONG,
+    Promise,
     calibrate,
     decided,
+    promise_of,
     questions_of,
     shares_at,
 )
 from gestureapp.recognition.decision import EARLY, LAST
+from gestureapp.recognition.evaluation import tally
 from gestureapp.recognition.hearing import hear
 from gestureapp.recognition.model_file import load_model
 from gestureapp.recognition.movement_batch import follow_all, moments_at
@@ -61,6 +65,30 @@ def test_thresholds_keep_the_promise_or_come_as_near_as_any(n_wrong, n_takes, se
 
     others = [expected(EARLY, LAST), expected(0.98, 0.8), expected(0.995, 0.9)]
     assert expected(found.early, found.last) <= max(MOST_WRONG, min(others))
+
+
+@pytest.mark.parametrize(
+    ("right", "wrong", "silent", "promise"),
+    [
+        (198, 0, 40, Promise.KEPT),
+        (197, 0, 200, Promise.UNKNOWN),
+        (398, 0, 0, Promise.KEPT),
+        (397, 1, 0, Promise.KEPT),
+        (396, 1, 9, Promise.NOT_SHOWN),
+        (198, 1, 0, Promise.NOT_SHOWN),
+    ],
+)
+def test_the_promise_is_kept_not_shown_or_not_known(right, wrong, silent, promise):
+    answers = [("X+", "X+")] * right + [("X+", "X-")] * wrong + [("X+", None)] * silent
+
+    found, why = promise_of(tally(("X+", "X-"), answers))
+
+    assert found is promise
+    assert f"{wrong} of {right + wrong} answers" in why
+
+
+def test_nothing_heard_blind_promises_nothing():
+    assert promise_of(None)[0] is Promise.UNKNOWN
 
 
 def test_few_takes_change_nothing():

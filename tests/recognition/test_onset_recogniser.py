@@ -207,7 +207,7 @@ def test_an_arm_that_falls_silent_is_never_guessed_from_what_came_before(last_s)
     assert answer.decided_s <= last_s + SILENT_AFTER_S + 0.011
 
 
-@pytest.mark.parametrize("bad", [float("nan"), float("inf")])
+@pytest.mark.parametrize("bad", [float("nan"), float("inf"), 1e308, -101.0])
 def test_a_reading_that_is_not_a_number_gives_no_gesture_and_spoils_nothing(bad):
     recogniser = OnsetRecogniser(model_by_hand())
     recogniser.feed(0.0, LEVEL)
@@ -218,6 +218,24 @@ def test_a_reading_that_is_not_a_number_gives_no_gesture_and_spoils_nothing(bad)
     assert (answer.label, answer.reason) == (None, "a reading of the right arm is not a number")
     (after,) = hear(recogniser, lambda t: push_at(t, 0.6), 0.6, 0.02 + steps())
     assert after.label == "X+"
+
+
+def test_a_time_that_is_not_a_number_is_passed_over():
+    recogniser = OnsetRecogniser(model_by_hand())
+    recogniser.activate(1, 0.5)
+
+    assert recogniser.feed(float("nan"), LEVEL) is None
+    (answer,) = hear(recogniser, lambda t: push_at(t, 0.6), 0.6, steps())
+    assert answer.label == "X+"
+
+
+def test_a_gap_before_the_activation_does_not_shorten_the_time_to_decide():
+    recogniser = OnsetRecogniser(model_with_outputs(0.5, 0.3, 0.2))
+    times_s = [t_s for t_s in steps() if not 0.1 < t_s < 1.0]
+
+    (answer,) = hear(recogniser, lambda t: push_at(t, 1.1), 1.02, times_s)
+
+    assert answer.decided_s >= answer.onset_s + 0.14
 
 
 def test_a_cancelled_activation_is_never_answered_and_a_new_one_replaces_an_open_one():

@@ -10,7 +10,7 @@ from gestureapp.errors import ModelInvalid, NotEnoughTakes
 from gestureapp.gestures import LABELS
 from gestureapp.recognition import base, onset_training, training
 from gestureapp.recognition.base import load_base
-from gestureapp.recognition.hearing import evaluate
+from gestureapp.recognition.hearing import evaluate, hear
 from gestureapp.recognition.members import Steps
 from gestureapp.recognition.model_file import load_model, save_model
 from gestureapp.recognition.presets import Preset
@@ -62,6 +62,35 @@ def test_a_person_is_recognised_on_another_day_and_the_file_says_the_same(tmp_pa
     assert (tmp_path / "model.json").stat().st_size < 1_500_000
 
 
+def still_from(takes, rows):
+    """The same, but in these takes nothing moves."""
+    samples = takes.samples.copy()
+    for row in rows:
+        samples[takes.offsets[row] : takes.offsets[row + 1]] = [0.0, 0.0, 1.0]
+    return replace(takes, samples=samples)
+
+
+@pytest.mark.parametrize("still", [range(6, 12), range(18)], ids=["one gesture", "all"])
+def test_a_gesture_in_whose_takes_nothing_moves_is_refused_by_name(still):
+    takes = still_from(other_takes(), still)
+
+    with pytest.raises(NotEnoughTakes, match=r"in the takes of .*poke") as no:
+        train(takes, seed=1)
+
+    assert ("wave" in str(no.value)) == (len(still) == 18)
+
+
+@pytest.mark.usefixtures("few_steps")
+def test_a_fold_in_which_nothing_moves_is_heard_as_nothing():
+    takes = replace(other_takes(), repetition=tuple(str(n % 6) for n in range(18)))
+    takes = still_from(takes, [row for row in range(18) if row % 6 == 2])
+
+    found = train(takes, seed=1).cross_validation.evaluation
+
+    assert found.n == 18
+    assert found.rejected >= 3 / 18
+
+
 @pytest.mark.usefixtures("few_steps")
 def test_a_seed_gives_the_same_model_and_another_seed_another():
     takes = make_takes(1, 5, SEED, gestures=("X+", "Z-"))
@@ -101,6 +130,17 @@ def test_one_take_of_each_gesture_is_enough_to_begin_with():
 
     assert model.cross_validation is None
     assert evaluate(model, make_takes(1, 4, SEED, session=2)).recognised > 0.9
+
+
+def test_a_gesture_that_was_not_taught_is_not_heard_as_another():
+    taught = tuple(label for label in LABELS if not label.startswith("RZ"))
+
+    model = train(make_takes(1, 8, SEED, gestures=taught), seed=1)
+
+    turns = make_takes(1, 8, SEED, session=2, gestures=("RZ+", "RZ-"))
+    named = [answer for i in range(len(turns)) if (answer := hear(model, turns, i).label)]
+    assert len(named) <= 1
+    assert evaluate(model, make_takes(1, 4, SEED, session=2, gestures=taught)).recognised > 0.9
 
 
 def test_of_other_gestures_five_takes_are_needed():

@@ -1,5 +1,6 @@
 import io
 import stat
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -7,13 +8,15 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from gestureapp.errors import RecordingError, RecordingInvalid
+from gestureapp.gestures import LABELS
 from gestureapp.recognition.takes import TakeSet, load_takes, save_takes
+from gestureapp.simulation.takes import make_takes
 
 
 def takes_of(**changes):
     rng = np.random.default_rng(0)
     values = {
-        "samples": rng.normal(0, 1, (10, 3)).astype(np.float32),
+        "samples": rng.normal([0.0, 0.0, 1.0], 0.1, (10, 3)).astype(np.float32),
         "offsets": [0, 4, 10],
         "labels": ("X+", "left"),
         "activation": [1, 0],
@@ -30,6 +33,7 @@ def arrays_of(**changes):
         "offsets": np.array([0, 4, 10]),
         "labels": np.array(["X+", "Y-"]),
         "activation": np.array([1, 0]),
+        "rate_hz": np.array(100.0),
     }
     arrays |= changes
     return {name: array for name, array in arrays.items() if array is not None}
@@ -55,7 +59,7 @@ def test_takes_written_and_read_are_the_same(tmp_path):
 
 
 def test_the_fingerprint_outlives_the_file_also_for_finer_samples(tmp_path):
-    takes = takes_of(samples=np.random.default_rng(1).normal(0, 1, (10, 3)))
+    takes = takes_of(samples=np.random.default_rng(1).normal([0, 0, 1], 0.1, (10, 3)))
     save_takes(tmp_path / "t.npz", takes)
 
     assert load_takes(tmp_path / "t.npz").fingerprint() == takes.fingerprint()
@@ -67,8 +71,23 @@ def test_an_unknown_rate_stays_unknown(tmp_path):
     assert load_takes(tmp_path / "t.npz").rate_hz is None
 
 
+@pytest.mark.parametrize("rate_hz", [None, np.array(np.nan)])
+def test_it_is_said_which_rate_is_taken_where_none_is_known(tmp_path, rate_hz):
+    takes = load_takes(write(tmp_path / "t.npz", rate_hz=rate_hz))
+
+    (remark,) = takes.remarks
+    assert "'rate_hz' is missing: 100 Hz is taken" in remark
+
+
+@pytest.mark.parametrize("rate_hz", [20.0, 2000])
+def test_a_rate_at_which_gestures_can_be_told_is_taken(tmp_path, rate_hz):
+    takes = load_takes(write(tmp_path / "t.npz", rate_hz=np.array(rate_hz)))
+
+    assert (takes.rate_hz, takes.remarks) == (rate_hz, ())
+
+
 def test_what_is_optional_may_be_absent(tmp_path):
-    takes = load_takes(write(tmp_path / "t.npz", activation=None))
+    takes = load_takes(write(tmp_path / "t.npz", activation=None, rate_hz=None))
 
     assert takes.activation.tolist() == [0, 0]
     assert (takes.user, takes.session, takes.rate_hz) == ((), (), None)
@@ -109,6 +128,11 @@ DAMAGE = {
     "a label empty": ({"labels": np.array(["X+", ""])}, "'labels' is empty for take 1"),
     "rate zero": ({"rate_hz": np.array(0.0)}, "'rate_hz' must lie"),
     "rates": ({"rate_hz": np.array([100.0, 50.0])}, "'rate_hz' must be one number"),
+    "rate of nothing that moves": (
+        {"rate_hz": np.array(5.0)},
+        "is 5, outside 20 to 2000 Hz: correct",
+    ),
+    "rate of sound": ({"rate_hz": np.array(20_000)}, "is 20000, outside .* leave out samples"),
     "rate infinite": ({"rate_hz": np.array(np.inf)}, "'rate_hz' must lie"),
 }
 
@@ -263,8 +287,42 @@ def test_with_an_activation_only_gravity_is_given_back(tmp_path, activation):
     takes = load_takes(marked(tmp_path / "t.npz", activation=np.array([activation] * 2)))
 
     assert takes.activation.tolist() == [activation] * 2
-    assert takes.remarks == ("gravity had been removed: 1 g is added on Z",)
+    (remark,) = takes.remarks
+    assert "without gravity, 1 g is added on Z" in remark
     assert np.allclose(takes.accel_g(0)[3], [0.0, 0.8, 1.0])
+
+
+def moving_already(path, gestures, n_samples, removed_g):
+    """Takes that begin at the activation, when the hand moves, without so much on Z."""
+    made = make_takes(1, 6, 31, gestures=gestures)
+    parts = [
+        made.accel_g(i)[start : start + n_samples] - [0.0, 0.0, removed_g]
+        for i, start in enumerate(made.activation.tolist())
+    ]
+    return write(
+        path,
+        samples=np.concatenate(parts),
+        offsets=np.cumsum([0, *map(len, parts)]),
+        labels=np.array(made.labels),
+        activation=np.zeros(len(made), dtype=int),
+        rate_hz=np.array(100.0),
+    )
+
+
+SETS = [LABELS, LABELS[:6], ("RX+", "RX-", "RY+", "RY-"), ("Y+", "Y-"), ("X+", "RZ-")]
+
+
+@pytest.mark.parametrize("gestures", SETS, ids="".join)
+@pytest.mark.parametrize("n_samples", [20, 30])
+def test_removed_gravity_is_noticed_though_the_hand_moves_from_the_first_sample_on(
+    tmp_path, gestures, n_samples
+):
+    whole = load_takes(moving_already(tmp_path / "with.npz", gestures, n_samples, 0.0))
+    bare = load_takes(moving_already(tmp_path / "without.npz", gestures, n_samples, 1.0))
+
+    assert whole.remarks == ()
+    assert "1 g is added on Z" in bare.remarks[0]
+    assert np.allclose(bare.samples, whole.samples)
 
 
 def test_with_an_activation_and_gravity_nothing_is_put_right(tmp_path):
@@ -302,3 +360,45 @@ def test_a_number_that_is_not_finite_is_told_with_its_row(tmp_path):
     samples[5, 1] = np.nan
     with pytest.raises(RecordingInvalid, match="holds a number that is not finite at row 5"):
         load_takes(write(tmp_path / "t.npz", samples=samples))
+
+
+def test_takes_in_metres_per_second_squared_are_refused_with_the_remedy(tmp_path):
+    made = make_takes(1, 2, 31)
+    path = tmp_path / "t.npz"
+    save_takes(path, replace(made, samples=made.samples * 9.80665))
+
+    with pytest.raises(RecordingInvalid, match=r"look like m/s2; divide them by 9\.80665"):
+        load_takes(path)
+
+
+def test_takes_in_counts_of_a_sensor_are_refused_with_the_remedy(tmp_path):
+    samples = np.tile([30, -20, 16384], (10, 1)).astype(np.int16)
+
+    with pytest.raises(RecordingInvalid, match="what the sensor reads for 1 g"):
+        load_takes(write(tmp_path / "t.npz", samples=samples))
+
+
+@pytest.mark.parametrize("value", [101.0, -1e30, 1e308])
+def test_a_reading_that_no_hand_makes_is_refused_with_its_take(tmp_path, value):
+    samples = np.tile([0.0, 0.0, 1.0], (10, 1))
+    samples[6, 1] = value
+
+    with pytest.raises(RecordingInvalid, match=r"row 6 \(take 1\): beyond 100 g is no reading"):
+        load_takes(write(tmp_path / "t.npz", samples=samples))
+
+
+def test_a_blow_within_the_range_of_sensors_is_read(tmp_path):
+    samples = np.tile([0.0, 0.0, 1.0], (10, 1))
+    samples[6] = [-16.0, 16.0, 16.0]
+
+    assert load_takes(write(tmp_path / "t.npz", samples=samples)).samples[6, 0] == -16.0
+
+
+def test_takes_without_gravity_are_asked_about_when_they_go_far_beyond_what_hands_do(tmp_path):
+    made = make_takes(1, 6, 31)
+    save_takes(tmp_path / "g.npz", replace(made, samples=made.samples - [0.0, 0.0, 1.0]))
+    ms2 = (made.samples - [0.0, 0.0, 1.0]) * 9.80665
+    save_takes(tmp_path / "ms2.npz", replace(made, samples=ms2))
+
+    assert len(load_takes(tmp_path / "g.npz").remarks) == 1
+    assert "if the samples are in m/s2, divide" in load_takes(tmp_path / "ms2.npz").remarks[0]

@@ -83,10 +83,10 @@ class DeskControls:
         return tuple(take for take in takes if take.label == label) if label else takes
 
     def start_trying(self, per_gesture: int = 5) -> None:
-        raise NotImplementedError
+        self.bench.desk.start_trying(per_gesture)
 
     def stop_trying(self) -> None:
-        raise NotImplementedError
+        self.bench.desk.stop_trying()
 
     def keep_heard(self, number: int) -> None:
         self.bench.desk.keep_heard(number)

@@ -143,6 +143,13 @@ def test_an_answer_from_the_onset_says_how_long_it_took_and_what_it_needed(windo
         assert bar.format() == f"certainty {certainty:.2f}, needed {needed}"
 
 
+def test_an_answer_without_an_onset_is_timed_from_the_activation(window, cell, scenes):
+    answer = replace(scenes.followed("RY+", 0.97), onset_s=None)
+    held = replace(answer, activation_s=answer.decided_s - 0.012)
+    show(window, cell, replace(cell.shown, recognition=held))
+    assert text_of(window, "decisionLabel") == "decided 12 ms after the activation"
+
+
 def test_two_candidates_are_named_once(window, cell, scenes):
     answer = scenes.followed(None, 0.47, "two candidates (Y+ 0.47, RZ+ 0.41)")
     show(window, cell, replace(cell.shown, recognition=answer))

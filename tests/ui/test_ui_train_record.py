@@ -1,6 +1,8 @@
 """Recording as a person sees it: prompt, count-in, beat, takes with verdicts, and the buttons."""
 
+import shutil
 from dataclasses import replace
+from pathlib import Path
 
 import pytest
 from PySide6.QtCore import Qt
@@ -11,6 +13,7 @@ from PySide6.QtWidgets import QDoubleSpinBox, QLabel, QSpinBox
 from gestureapp.cell.snapshot import CellState
 from gestureapp.gestures import GESTURES
 from gestureapp.guided.values import Pace, Phase
+from gestureapp.recording.people import model_path
 from gestureapp.sensing.values import Side
 from tests.ui.sitting import Room
 from ui.gesture_list import GestureRow
@@ -19,6 +22,7 @@ from ui.record_step import RecordStep
 from ui.take_strip import TakeStrip
 from ui.theme import colours_of
 
+DEMO_MODEL = Path(__file__).parents[2] / "resources" / "demo" / "model.json"
 CONTROL = Qt.KeyboardModifier.ControlModifier
 SHIFT = Qt.KeyboardModifier.ShiftModifier
 
@@ -240,6 +244,18 @@ def test_stop_goes_out_where_no_batch_is_under_way(room):
     room.key(Qt.Key.Key_Escape)
     assert "stop" in room.cell.calls
     assert room.bench.picture.phase is Phase.IDLE
+
+
+def test_stop_ends_a_live_test(room, tmp_path):
+    shutil.copy(DEMO_MODEL, model_path(tmp_path, room.bench.picture.person))
+    room.controls.start_trying()
+    room.run_until(lambda picture: picture.trying.is_on)
+
+    room.key(Qt.Key.Key_Escape)
+    room.run(0.05)
+
+    assert "stop" in room.cell.calls
+    assert not room.bench.picture.trying.is_on
 
 
 def test_without_a_left_sensor_takes_go_by_the_beat(qtbot, cell, operator, tmp_path):
