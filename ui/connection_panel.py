@@ -14,7 +14,8 @@ from PySide6.QtWidgets import (
 )
 
 from gestureapp.setup.controls import SetupControls
-from gestureapp.setup.values import Check, Outcome, RobotCard, RobotRow, SettingRow
+from gestureapp.setup.site_values import RobotCard, RobotRow, SettingRow
+from gestureapp.setup.values import Check, Outcome
 from ui.background import Background
 from ui.draft_bar import heading
 from ui.labels import plain

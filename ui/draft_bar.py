@@ -4,7 +4,7 @@ from PySide6.QtWidgets import QFrame, QHBoxLayout, QLabel, QLineEdit, QPushButto
 
 from gestureapp.setup.controls import SetupControls
 from gestureapp.setup.lock import PIN_DIGITS
-from gestureapp.setup.values import LockView
+from gestureapp.setup.site_values import LockView
 from ui.background import Background
 from ui.labels import plain
 from ui.marks import Level, Mark

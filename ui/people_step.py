@@ -17,8 +17,10 @@ from PySide6.QtWidgets import (
 )
 
 from gestureapp.cell.snapshot import Snapshot
+from gestureapp.recording.person_profile import Handedness
 from gestureapp.setup.controls import SetupControls
-from gestureapp.setup.values import Handedness, PersonRow, SetupSnapshot
+from gestureapp.setup.site_values import PersonRow
+from gestureapp.setup.snapshot import SetupSnapshot
 from ui.draft_bar import heading
 from ui.labels import ElidedLabel, plain
 from ui.marks import Level, Mark

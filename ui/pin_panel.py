@@ -4,7 +4,7 @@ from PySide6.QtWidgets import QFrame, QHBoxLayout, QPushButton, QVBoxLayout, QWi
 
 from gestureapp.setup.controls import SetupControls
 from gestureapp.setup.lock import WHAT_FOR
-from gestureapp.setup.values import LockView
+from gestureapp.setup.site_values import LockView
 from ui.background import Background
 from ui.draft_bar import heading, pin_field
 from ui.labels import plain

@@ -7,7 +7,7 @@ from PySide6.QtWidgets import QFrame, QTabBar, QVBoxLayout, QWidget
 from gestureapp.cell.snapshot import Snapshot
 from gestureapp.clock import Clock, monotonic
 from gestureapp.setup.controls import SetupControls
-from gestureapp.setup.values import SetupSnapshot
+from gestureapp.setup.snapshot import SetupSnapshot
 from ui.connection_panel import ConnectionPanel
 from ui.draft_bar import DraftBar, LockBar
 from ui.field_form import DriveForm, FieldForm

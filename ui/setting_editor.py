@@ -13,7 +13,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from gestureapp.setup.values import SettingRow
+from gestureapp.setup.site_values import SettingRow
 from ui.labels import plain
 from ui.marks import Level, Mark
 from ui.setting_values import BOX_FORM, NEEDS_PIN, OFF, ON, Kind, caption_of, kind_of, why_not_text

@@ -7,7 +7,7 @@ from enum import Enum
 from typing import Any
 
 from gestureapp.config import KeepOutSettings, RobotSettings
-from gestureapp.setup.values import SettingRow
+from gestureapp.setup.site_values import SettingRow
 
 NEEDS_PIN = "Locked: needs the PIN."
 ON, OFF = "on", "off"

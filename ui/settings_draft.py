@@ -6,7 +6,7 @@ from typing import Final
 from PySide6.QtCore import QObject, Signal
 
 from gestureapp.setup.controls import SetupControls
-from gestureapp.setup.values import SettingRow
+from gestureapp.setup.site_values import SettingRow
 from ui.background import Background
 from ui.setting_values import NEEDS_PIN, NotReadable, caption_of, typed_value, value_text
 

@@ -9,7 +9,8 @@ from PySide6.QtWidgets import QFrame, QHBoxLayout, QLabel, QLineEdit, QVBoxLayou
 from gestureapp.cell.snapshot import Snapshot
 from gestureapp.settings_check import SettingsFinding
 from gestureapp.setup.controls import SetupControls
-from gestureapp.setup.values import SettingRow, SetupSnapshot
+from gestureapp.setup.site_values import SettingRow
+from gestureapp.setup.snapshot import SetupSnapshot
 from ui.draft_bar import DraftBar, LockBar, heading
 from ui.labels import plain
 from ui.marks import Level, Mark

@@ -4,7 +4,7 @@ from PySide6.QtCore import QSize, Qt, Signal
 from PySide6.QtGui import QIcon
 from PySide6.QtWidgets import QAbstractItemView, QHeaderView, QTreeWidget, QTreeWidgetItem, QWidget
 
-from gestureapp.setup.values import SettingRow
+from gestureapp.setup.site_values import SettingRow
 from ui.setting_editor import lock_icon
 from ui.setting_values import caption_of, matches, value_text
 from ui.settings_draft import SettingsDraft

@@ -7,7 +7,7 @@ from PySide6.QtWidgets import QButtonGroup, QHBoxLayout, QVBoxLayout, QWidget
 from gestureapp.cell.snapshot import Snapshot
 from gestureapp.sensing.values import Side
 from gestureapp.setup.controls import SetupControls
-from gestureapp.setup.values import SetupSnapshot
+from gestureapp.setup.snapshot import SetupSnapshot
 from ui.pages import PageStack
 from ui.postures_panel import PosturesPanel
 from ui.setup_parts import enable

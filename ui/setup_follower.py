@@ -3,7 +3,8 @@
 from typing import Protocol
 
 from gestureapp.sensing.values import ArmPosture, Side
-from gestureapp.setup.values import Position, SetupSnapshot
+from gestureapp.setup.snapshot import SetupSnapshot
+from gestureapp.setup.values import Position
 
 Wish = tuple[Side, Position] | ArmPosture | None
 """A sensor laid down so, the left arm in this posture, or nothing."""

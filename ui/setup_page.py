@@ -10,7 +10,7 @@ from gestureapp.cell.controls import CellControls
 from gestureapp.cell.snapshot import Snapshot
 from gestureapp.sensing.values import Side
 from gestureapp.setup.controls import SetupControls
-from gestureapp.setup.values import SetupSnapshot
+from gestureapp.setup.snapshot import SetupSnapshot
 from ui.pages import PageStack
 from ui.setup_words import SetupStep, setup_states
 from ui.step_bar import StepBar

@@ -9,7 +9,8 @@ from gestureapp.cell.controls import CellControls
 from gestureapp.cell.snapshot import Snapshot
 from gestureapp.sensing.values import Side
 from gestureapp.setup.controls import SetupControls
-from gestureapp.setup.values import Check, FoundSensor, Remedy, SetupSnapshot
+from gestureapp.setup.snapshot import SetupSnapshot
+from gestureapp.setup.values import Check, FoundSensor, Remedy
 from ui.find_panel import FindPanel
 from ui.labels import plain
 from ui.link_test_panel import LinkTestPanel

@@ -7,6 +7,7 @@ from enum import Enum
 
 from gestureapp.cell.snapshot import Snapshot
 from gestureapp.sensing.values import LinkState, Side, StreamHealth
+from gestureapp.setup.snapshot import SetupSnapshot
 from gestureapp.setup.values import (
     CalibrationView,
     Check,
@@ -17,7 +18,6 @@ from gestureapp.setup.values import (
     Position,
     PosturesView,
     SensorCard,
-    SetupSnapshot,
 )
 from ui.marks import Level
 from ui.step_state import StepState

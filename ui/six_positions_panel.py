@@ -4,14 +4,8 @@ from PySide6.QtWidgets import QFrame, QGridLayout, QHBoxLayout, QProgressBar, QV
 
 from gestureapp.sensing.values import Side
 from gestureapp.setup.controls import SetupControls
-from gestureapp.setup.values import (
-    CalibrationView,
-    Check,
-    LevelView,
-    Position,
-    SensorCard,
-    SetupSnapshot,
-)
+from gestureapp.setup.snapshot import SetupSnapshot
+from gestureapp.setup.values import CalibrationView, Check, LevelView, Position, SensorCard
 from ui.labels import BigText
 from ui.operate_page import framed
 from ui.position_tile import PositionTile

@@ -13,7 +13,9 @@ from PySide6.QtWidgets import (
 
 from gestureapp.clock import Clock, monotonic
 from gestureapp.setup.controls import SetupControls
-from gestureapp.setup.values import Outcome, SetupSnapshot, StopTestPhase, StopTestView
+from gestureapp.setup.site_values import StopTestPhase, StopTestView
+from gestureapp.setup.snapshot import SetupSnapshot
+from gestureapp.setup.values import Outcome
 from ui.choice_button import ChoiceButton
 from ui.connection_panel import date_text
 from ui.draft_bar import heading

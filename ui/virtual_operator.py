@@ -11,7 +11,7 @@ from PySide6.QtWidgets import QFrame, QGridLayout, QHBoxLayout, QPushButton, QVB
 from gestureapp.gestures import GESTURES
 from gestureapp.guided.values import GuidedSnapshot
 from gestureapp.sensing.values import Side
-from gestureapp.setup.values import SetupSnapshot
+from gestureapp.setup.snapshot import SetupSnapshot
 from gestureapp.simulation.prompts import NOTHING, Prompt
 from ui.labels import ElidedLabel, plain
 from ui.prompts import prompt_of

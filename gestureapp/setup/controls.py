@@ -3,8 +3,10 @@
 from collections.abc import Mapping
 from typing import Protocol
 
+from gestureapp.recording.person_profile import Handedness
 from gestureapp.sensing.values import Side
-from gestureapp.setup.values import Handedness, PersonRow, SettingRow, SetupSnapshot
+from gestureapp.setup.site_values import PersonRow, SettingRow
+from gestureapp.setup.snapshot import SetupSnapshot
 
 
 class SetupControls(Protocol):

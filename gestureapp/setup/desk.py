@@ -11,6 +11,7 @@ from gestureapp.cell.controls import CellControls
 from gestureapp.cell.snapshot import CellState, Snapshot
 from gestureapp.clock import Clock
 from gestureapp.errors import GestureAppError
+from gestureapp.recording.person_profile import Handedness
 from gestureapp.sensing.protocols import protocols
 from gestureapp.sensing.values import Side, StreamHealth
 from gestureapp.setup.finding import Finder
@@ -19,7 +20,8 @@ from gestureapp.setup.people_desk import PeopleDesk, PeopleSource
 from gestureapp.setup.port_watch import PortWatch
 from gestureapp.setup.robot_desk import RobotDesk
 from gestureapp.setup.sensors import Remember, Sensors
-from gestureapp.setup.values import Check, Handedness, PosturesView, SetupSnapshot
+from gestureapp.setup.snapshot import SetupSnapshot
+from gestureapp.setup.values import Check, PosturesView
 
 AT_REST: Final = (CellState.NOT_READY, CellState.READY, CellState.STOPPED)
 """Nothing may move: only then sensors change sides."""

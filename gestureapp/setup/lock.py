@@ -11,7 +11,7 @@ import os
 from typing import Final
 
 from gestureapp.clock import Clock
-from gestureapp.setup.values import LockView
+from gestureapp.setup.site_values import LockView
 
 OPEN_FOR_S: Final = 600.0
 PIN_DIGITS: Final = (4, 12)

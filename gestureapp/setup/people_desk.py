@@ -28,7 +28,8 @@ from gestureapp.recording.take_values import Take
 from gestureapp.sensing.posture import LeftPostures
 from gestureapp.setup.arm_sensor import day_words
 from gestureapp.setup.postures import LEAST_MARGIN_DEG, between_deg, margin_deg, posture_problem
-from gestureapp.setup.values import PersonRow, PosturesView
+from gestureapp.setup.site_values import PersonRow
+from gestureapp.setup.values import PosturesView
 
 _BUILT_IN_WORDS = "the built-in ones"
 

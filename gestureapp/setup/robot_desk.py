@@ -10,7 +10,8 @@ from gestureapp.cell.snapshot import Snapshot
 from gestureapp.errors import RecordingError
 from gestureapp.recording.kept_json import read_kept, write_kept
 from gestureapp.setup.robot_rows import robot_card, stop_test_outcome, stop_test_view
-from gestureapp.setup.values import Check, Outcome, RobotCard, StopTestView
+from gestureapp.setup.site_values import RobotCard, StopTestView
+from gestureapp.setup.values import Check, Outcome
 
 _FILE: Final = "stop-test.json"
 _KIND: Final = "gestureapp stop test"

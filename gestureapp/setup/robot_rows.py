@@ -7,14 +7,8 @@ from gestureapp.cell.snapshot import RobotView, StopTestResult
 from gestureapp.robot.gate import find_foreign_tool
 from gestureapp.robot.values import Position, RobotStatus
 from gestureapp.robot.workspace import FieldOfOperation, find_outside
-from gestureapp.setup.values import (
-    Check,
-    Outcome,
-    RobotCard,
-    RobotRow,
-    StopTestPhase,
-    StopTestView,
-)
+from gestureapp.setup.site_values import RobotCard, RobotRow, StopTestPhase, StopTestView
+from gestureapp.setup.values import Check, Outcome
 
 _FRESH_S: Final = 2.0
 """A position is asked for several times a second; an older one is not what is."""

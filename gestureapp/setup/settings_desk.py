@@ -31,7 +31,7 @@ from gestureapp.settings_text import about, allowed, choices
 from gestureapp.settings_values import WrongType, converted, plain
 from gestureapp.settings_words import shown, unit_of
 from gestureapp.setup.lock import Lock, hash_pin, why_no_pin
-from gestureapp.setup.values import LockView, SettingRow
+from gestureapp.setup.site_values import LockView, SettingRow
 
 LOCKED: Final = "locked: give the PIN first"
 _NOT_KEPT: Final = Path("this run only")

@@ -14,12 +14,14 @@ from typing import Final
 from gestureapp.cell.controls import SETUP_OPEN, CellControls
 from gestureapp.clock import Clock, monotonic
 from gestureapp.errors import WorkerError
+from gestureapp.recording.person_profile import Handedness
 from gestureapp.sensing.protocols import protocols
 from gestureapp.sensing.values import Side
 from gestureapp.setup.desk import Desk
 from gestureapp.setup.people_desk import PeopleSource
 from gestureapp.setup.settings_desk import SettingsDesk
-from gestureapp.setup.values import Handedness, PersonRow, SettingRow, SetupSnapshot
+from gestureapp.setup.site_values import PersonRow, SettingRow
+from gestureapp.setup.snapshot import SetupSnapshot
 from gestureapp.worker import Worker
 
 TICK_S: Final = 0.02

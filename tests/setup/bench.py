@@ -25,7 +25,8 @@ from gestureapp.setup.desk import Desk
 from gestureapp.setup.people_desk import PeopleSource
 from gestureapp.setup.port_watch import PortWatch
 from gestureapp.setup.settings_use import SettingsUse
-from gestureapp.setup.values import SensorCard, SetupSnapshot
+from gestureapp.setup.snapshot import SetupSnapshot
+from gestureapp.setup.values import SensorCard
 from gestureapp.simulation.sensor_wire import Accel, encode_csv
 
 WALL_S = 1_800_000_000.0

@@ -14,7 +14,8 @@ from gestureapp.setup.robot_rows import (
     stop_test_outcome,
     stop_test_view,
 )
-from gestureapp.setup.values import Check, Outcome, StopTestPhase
+from gestureapp.setup.site_values import StopTestPhase
+from gestureapp.setup.values import Check, Outcome
 
 POSE = Pose(800.0, 0.0, 300.0, 180.0, 0.0, 0.0)
 FIELD = field_of(Settings())

@@ -12,7 +12,7 @@ from gestureapp.settings_check import named_values
 from gestureapp.settings_file import load_settings, settings_text
 from gestureapp.setup.lock import OPEN_FOR_S
 from gestureapp.setup.settings_desk import LOCKED, SettingsDesk
-from gestureapp.setup.values import SettingRow
+from gestureapp.setup.site_values import SettingRow
 
 
 class Cell:

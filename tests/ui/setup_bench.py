@@ -8,6 +8,7 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QAbstractButton, QApplication, QLabel, QWidget
 
 from gestureapp.config import KeepOutSettings, Settings
+from gestureapp.recording.person_profile import Handedness
 from gestureapp.sensing.values import LinkState, Side, StreamHealth
 from gestureapp.settings_check import (
     bad_pairs,
@@ -19,26 +20,27 @@ from gestureapp.settings_text import about, allowed, choices
 from gestureapp.settings_values import plain
 from gestureapp.settings_words import unit_of
 from gestureapp.setup.lock import NO_PIN
+from gestureapp.setup.site_values import (
+    LockView,
+    PersonRow,
+    RobotCard,
+    SettingRow,
+    StopTestPhase,
+    StopTestView,
+)
+from gestureapp.setup.snapshot import SetupSnapshot
 from gestureapp.setup.values import (
     CalibrationView,
     FindingView,
-    Handedness,
     LevelView,
     LinkTestView,
-    LockView,
-    PersonRow,
     PortChoice,
     Position,
     PositionState,
     PositionView,
     PosturesView,
-    RobotCard,
     SensorCard,
-    SettingRow,
-    SetupSnapshot,
     ShakeView,
-    StopTestPhase,
-    StopTestView,
 )
 from ui.main_window import MainWindow
 

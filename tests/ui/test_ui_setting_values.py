@@ -5,7 +5,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from gestureapp.config import KeepOutSettings, RobotSettings
-from gestureapp.setup.values import SettingRow
+from gestureapp.setup.site_values import SettingRow
 from tests.ui.setup_bench import every_setting
 from ui.facing_view import TURNS, robot_axis
 from ui.setting_values import NotReadable, edited_robot, typed_value, value_text

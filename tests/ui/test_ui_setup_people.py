@@ -7,7 +7,8 @@ from PySide6.QtCore import Qt
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QLineEdit
 
-from gestureapp.setup.values import Handedness, PersonRow
+from gestureapp.recording.person_profile import Handedness
+from gestureapp.setup.site_values import PersonRow
 from tests.ui.setup_bench import NOW_S, SetupRoom
 
 ANA = PersonRow("Ana", True, Handedness.RIGHT, 360, "trained 2026-11-20", "margin 34\u00b0")

@@ -16,17 +16,16 @@ from PySide6.QtWidgets import (
     QTreeWidget,
 )
 
-from gestureapp.setup.values import (
-    Check,
-    Handedness,
+from gestureapp.recording.person_profile import Handedness
+from gestureapp.setup.site_values import (
     LockView,
-    Outcome,
     PersonRow,
     RobotCard,
     RobotRow,
     StopTestPhase,
     StopTestView,
 )
+from gestureapp.setup.values import Check, Outcome
 from tests.ui.setup_bench import NOW_S, SetupRoom
 from ui.facing_view import FacingView, robot_axis
 

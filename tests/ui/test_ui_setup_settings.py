@@ -9,7 +9,7 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QCheckBox, QComboBox, QLineEdit, QTreeWidget, QTreeWidgetItemIterator
 
 from gestureapp.settings_check import SettingsFinding
-from gestureapp.setup.values import LockView
+from gestureapp.setup.site_values import LockView
 from tests.ui.setup_bench import NOW_S, SetupRoom
 
 NAME, VALUE, ORIGIN, MARK = range(4)
