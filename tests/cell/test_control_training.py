@@ -114,7 +114,7 @@ def test_a_model_is_changed_only_while_nothing_may_move(desk, tmp_path):
     desk.press(e.DisarmPressed(desk.now_s))
     desk.run(1.0)
     assert desk.control.picture.person == "Ana"
-    assert desk.control.picture.model == "Ana, 12 gestures, not tried live"
+    assert desk.control.picture.model.startswith("Ana, 12 gestures, not tried live")
     assert any(line.text.startswith("model: Ana") for line in desk.control.picture.events)
 
 
@@ -130,8 +130,10 @@ def test_a_model_is_described_by_how_it_did_when_it_was_tried():
     model = load_model(MODEL)
     live = LiveFigure(60, 56, 1, 3, "2026-01-02T00:00:00+00:00")
 
-    assert describe_model(model) == "p1, 12 gestures, not tried live"
+    assert describe_model(model) == "p1, 12 gestures, not tried live, at most 1 in 200 wrong"
     assert (
-        describe_model(replace(model, person=""), "spare") == "spare, 12 gestures, not tried live"
+        describe_model(replace(model, person="", cross_validation=None), "spare")
+        == "spare, 12 gestures, not tried live, at most 1 in 200 wrong: not known"
     )
-    assert describe_model(replace(model, live=live)) == "p1, 12 gestures, tried live: 93 % of 60"
+    words = describe_model(replace(model, live=live))
+    assert words == "p1, 12 gestures, tried live: 93 % of 60, at most 1 in 200 wrong"

@@ -54,6 +54,7 @@ ONE_OF_EACH = [
     ),
     Record(Topic.COMMAND, 1000.07, {"type": "refused", "reason": "not_armed"}),
     Record(Topic.ROBOT, 1000.08, {"data_1": 194, "data_2": None, "x_mm": 712.5}),
+    Record(Topic.SETTINGS, 1000.085, {"changes": {"robot.speed_mm_s": 80.0}}),
     Record(Topic.EVENT, 1000.09, {"text": "Stopped by the left arm.", "is_alarm": False}),
 ]
 
@@ -157,7 +158,7 @@ def test_plain_mcap_finds_every_topic_with_its_schema_and_both_times(record_file
         expected_ns = 1_795_000_000_250_000_000 + round((record.t_s - 1000.0) * 1e9)
         assert message.log_time == expected_ns
         assert set(SCHEMAS[record.topic]["required"]) <= set(json.loads(message.data))
-    assert [message.sequence for _, _, message in messages] == list(range(1, 10))
+    assert [message.sequence for _, _, message in messages] == list(range(1, len(ONE_OF_EACH) + 1))
 
 
 def test_messages_have_the_types_their_schemas_say(record_file):
