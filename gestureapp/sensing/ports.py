@@ -7,7 +7,7 @@ Everything else, devices and other URLs, is ``serial.serial_for_url``.
 """
 
 import errno
-import importlib
+import re
 import socket
 import sys
 import urllib.parse
@@ -129,7 +129,7 @@ class DevicePort:
         options: dict[str, Any] = {} if "://" in url else {"exclusive": True}
         try:
             self.serial = serial.serial_for_url(url, baudrate=BAUD, timeout=READ_WAIT_S, **options)
-        except _PORT_ERRORS as error:
+        except Exception as error:  # each kind of URL is read by code of its own, raising anything
             raise open_failure(sensor, url, error) from error
 
     def read(self) -> bytes:
@@ -137,7 +137,7 @@ class DevicePort:
         try:
             waiting = min(MAX_READ_BYTES, max(1, self.serial.in_waiting))
             return bytes(self.serial.read(waiting))
-        except _PORT_ERRORS as error:
+        except Exception as error:  # as above; a closed port raises TypeError
             reason = f"{self._url} is gone: plug the receiver in or switch the sensor on"
             raise SensorDisconnected(self._sensor, reason) from error
 
@@ -145,7 +145,7 @@ class DevicePort:
         """See ``Port.close``."""
         try:
             self.serial.close()
-        except _PORT_ERRORS:
+        except Exception:
             # A port that was pulled out may fail in any of these ways; it is gone either way.
             return
 
@@ -167,9 +167,10 @@ def open_failure(sensor: str, where: str, error: Exception) -> SensorError:
     if code in _NO_ANSWER or isinstance(error, TimeoutError):
         remedy = "switch the sensor on, or check the address"
         return SensorNotFound(sensor, f"nobody answers at {where}: {remedy}")
-    if isinstance(error, ValueError):
+    if isinstance(error, _NO_PORT):
         return SensorError(sensor, f"{where} is no port: give a device or socket://HOST:PORT")
-    return SensorError(sensor, f"{where} cannot be opened ({error}): choose another port")
+    cause = " ".join(str(error).split()) or type(error).__name__
+    return SensorError(sensor, f"{where} cannot be opened ({cause}): choose another port")
 
 
 def group_of(device: str) -> str:
@@ -203,17 +204,8 @@ def _errno(error: Exception) -> int | None:
     return None
 
 
-def _termios_error() -> type[Exception]:
-    """``termios.error``, which is no OSError; on Windows there is none."""
-    try:
-        found: type[Exception] = importlib.import_module("termios").error
-    except ImportError:
-        return OSError
-    return found
-
-
-_PORT_ERRORS: tuple[type[Exception], ...] = (OSError, ValueError, TypeError, _termios_error())
-"""What pyserial lets out: SerialException is an OSError; TypeError comes from a closed port."""
+_NO_PORT = (ValueError, LookupError, TypeError, AttributeError, re.error)
+"""What a URL that is no port makes pyserial raise: its parts are looked up and searched for."""
 
 _BUSY = (errno.EBUSY, errno.EAGAIN)
 """EBUSY: another program asked the kernel for exclusive use. EAGAIN: it holds the file lock."""

@@ -106,6 +106,12 @@ def test_an_unknown_kind_of_url_is_no_port():
         open_port("left", "carrier-pigeon://roof")
 
 
+@pytest.mark.parametrize("url", ["loop://?logging=abc", "loop://?x=1", "hwgrep://[", "hwgrep://("])
+def test_a_url_with_a_mistake_in_it_is_no_port(url: str):
+    with pytest.raises(SensorError, match="is no port: give a device or socket://HOST:PORT"):
+        open_port("left", url)
+
+
 def test_loop_gives_what_was_written():
     port = open_port("left", "loop://")
     assert isinstance(port, DevicePort)

@@ -372,3 +372,11 @@ def test_a_callback_that_raises_ends_the_reader_with_a_report_and_a_closed_port(
     assert reader.stop()
     assert port.is_closed
     assert "right reader ended by an error" in caplog.text
+
+
+@pytest.mark.parametrize("url", ["loop://?logging=abc", "hwgrep://["])
+def test_a_mistyped_url_is_told_and_the_reader_lives_to_read_the_right_one(url: str):
+    with Bench(url) as bench:
+        assert "is no port" in bench.next(Disconnected).reason
+        bench.reader.use(SensorSettings("loop://"))
+        assert bench.next(Connected) == Connected("loop://")
