@@ -17,6 +17,7 @@ from gestureapp.config import (
     JointSettings,
     KeepOutSettings,
     RobotSettings,
+    SensorSettings,
     Settings,
     SiteSettings,
     TrainingSettings,
@@ -29,6 +30,9 @@ from gestureapp.settings_words import shown, unit_text
 MAX_KEEP_OUTS: Final = 8
 MAX_NAME_CHARS: Final = 30
 """Of a keep-out: it stands in the window beside its box."""
+
+MAX_PORT_CHARS: Final = 200
+"""Of a sensor's port, its protocol and its name: no device and no address is longer."""
 
 LOCK_TABLE: Final = "lock"
 PIN_KEY: Final = "lock.pin_hash"
@@ -192,6 +196,8 @@ def named_values(settings: Settings) -> Iterator[tuple[str, type, Any]]:
 
 def why_out_of_range(owner: type, name: str, value: object) -> str:
     """What is wrong with one value by itself, and what is allowed; empty when nothing is."""
+    if owner is SensorSettings:
+        return _why_no_line(value)
     if (owner, name) == (RobotSettings, "host"):
         return _why_no_address(value)
     if (owner, name) == (RobotSettings, "supervision_input"):
@@ -208,6 +214,15 @@ def why_out_of_range(owner: type, name: str, value: object) -> str:
         return f"{shown(value)} is not allowed; allowed is {allowed}{unit_text(name)}"
     if name.endswith("_range_deg") and not numbers[0] < numbers[1]:
         return f"{shown(value)} is no range; the first number must be below the second"
+    return ""
+
+
+def _why_no_line(text: object) -> str:
+    """No system call takes a text with a NUL, a lone surrogate, or a longer part of a path."""
+    if not isinstance(text, str) or not text.isprintable():
+        return f"{shown(text)} has characters that cannot be printed; take them out"
+    if len(text.encode()) > MAX_PORT_CHARS:
+        return f"{shown(text)} is too long; allowed are {MAX_PORT_CHARS} characters"
     return ""
 
 

@@ -53,7 +53,11 @@ def edited(file: Path, old: bytes | None, changes: Mapping[str, object]) -> byte
         _put_plain(wanted, name, value)
     if _meaning(new) != _without_empty(wanted):
         raise _not_changed(file)
-    return (_BOM if old is not None and old.startswith(_BOM) else b"") + new.encode()
+    try:
+        return (_BOM if old is not None and old.startswith(_BOM) else b"") + new.encode()
+    except UnicodeEncodeError as error:
+        reason = "a text with half a character in it cannot be written; type it anew"
+        raise ConfigError("settings file", str(file), reason) from error
 
 
 def replace_settings(

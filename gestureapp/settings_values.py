@@ -56,7 +56,14 @@ def converted(raw: Any, hint: Any, folder: Path) -> Any:  # noqa: ANN401 - TOML 
         return _number(raw)
     if type(raw) is not hint:
         raise WrongType(_KIND_WORDS[hint])
+    if isinstance(raw, str) and not is_unicode(raw):
+        raise WrongType("a text of whole characters")
     return raw
+
+
+def is_unicode(text: str) -> bool:
+    """Whether every character of it is whole; one that is not can be written to no file."""
+    return text.encode(errors="ignore").decode() == text
 
 
 _KIND_WORDS: Final[Mapping[type, str]] = {
@@ -109,7 +116,7 @@ def _member(raw: object, kind: type[Enum]) -> Enum:
 
 def _file_path(raw: object, folder: Path) -> Path | None:
     """A file's name, beside the settings file unless it is absolute; empty for none."""
-    if not isinstance(raw, str) or "\0" in raw:
+    if not isinstance(raw, str) or "\0" in raw or not is_unicode(raw):
         raise WrongType('the name of a file in quotes, or "" for none')
     return folder / Path(raw) if raw else None
 

@@ -19,6 +19,8 @@ from gestureapp.robot.nx100 import NETWORK_INPUTS
 from gestureapp.settings_check import PAIRS, RANGES, check_settings
 
 _TEXT = st.text(st.characters(codec="utf-8"), max_size=20)
+_LINE = st.text(st.characters(codec="utf-8", exclude_categories=("C", "Z")), max_size=20)
+"""What a port, a protocol and a sensor's name may be."""
 
 
 def _numbers(owner, name, value):
@@ -46,7 +48,7 @@ def values(owner, name, value):
     if name == "host":
         return st.sampled_from(["", "localhost"]) | st.ip_addresses().map(str)
     if isinstance(value, str):
-        return _TEXT
+        return _LINE if owner is SensorSettings else _TEXT
     if value is None:
         return st.none() | st.just(Path('/models/Ådá \\ "x" \x7f.json'))
     return _numbers(owner, name, value)

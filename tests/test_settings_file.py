@@ -256,3 +256,18 @@ def test_a_missing_schema_is_reported_and_taken_as_ours(layer):
     assert loaded.robot.tool == 2
     assert [one.setting for one in found] == ["schema"]
     assert "schema = 1" in found[0].text
+
+
+@pytest.mark.parametrize(
+    ("port", "words"),
+    [
+        (r"/dev/\u0000a", "has characters that cannot be printed; take them out"),
+        ("/dev/" + "a" * 300, "is too long; allowed are 200 characters"),
+    ],
+)
+def test_a_port_that_no_system_can_open_is_one_line_and_not_used(layer, port, words):
+    file = layer(_site(f'[left]\nport = "{port}"'))
+    loaded, (finding,) = read_settings([file])
+    assert loaded.left.port == ""
+    assert (finding.setting, finding.line, finding.is_refused) == ("left.port", 3, False)
+    assert words in finding.text

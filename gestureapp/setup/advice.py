@@ -154,15 +154,33 @@ def gather(
         is_bluetooth=is_wireless,
         is_powered=powered,
         is_paired=ask_device(address).is_paired if address and powered else None,
-        exists=Path(url).exists() if is_device else None,
-        is_allowed=os.access(url, os.R_OK | os.W_OK) if is_device else None,
+        exists=_exists(url) if is_device else None,
+        is_allowed=_is_allowed(url) if is_device else None,
         group=group_of(url),
     )
 
 
 def trouble_of(url: str) -> str:
-    """Why this port cannot be opened by this user, without opening it; empty when nobody knows."""
-    if os.name != "posix" or not Path(url).exists() or os.access(url, os.R_OK | os.W_OK):
+    """Why this port cannot be opened by this user, without opening it; empty when nobody knows.
+
+    Never raises.
+    """
+    if os.name != "posix" or not _exists(url) or _is_allowed(url):
         return ""
     group = group_of(url)
     return f"no permission: join the group {group}" if group else "no permission"
+
+
+def _exists(url: str) -> bool:
+    """No device has a name that the system cannot take: with a NUL in it, or far too long."""
+    try:
+        return Path(url).exists()
+    except (OSError, ValueError):
+        return False
+
+
+def _is_allowed(url: str) -> bool:
+    try:
+        return os.access(url, os.R_OK | os.W_OK)
+    except (OSError, ValueError):
+        return False

@@ -5,8 +5,10 @@ from pathlib import Path
 
 from gestureapp.cell.controls import CellControls
 from gestureapp.config import SensorSettings, Settings
-from gestureapp.errors import GestureAppError
+from gestureapp.errors import ConfigError, GestureAppError
 from gestureapp.sensing.values import Side, StreamHealth
+from gestureapp.settings_check import why_out_of_range
+from gestureapp.settings_values import short
 from gestureapp.setup.arm_sensor import ArmSensor
 from gestureapp.setup.port_watch import PortWatch
 from gestureapp.setup.sides import Sides, find_swapped, load_sides, save_sides
@@ -87,8 +89,10 @@ class Sensors:
         """Read this arm's sensor from there, and remember it; who is there then belongs there.
 
         Raises:
-            ConfigError: there is no such protocol.
+            ConfigError: there is no such protocol, or this is no text for a port.
         """
+        if why := why_out_of_range(SensorSettings, "port", port):
+            raise ConfigError(f"{side.value}.port", short(port), why)
         known = next((found for found in self.ports() if found.url == port), None)
         before = self.arms[side].settings
         name = before.name if before.port == port else ""

@@ -112,3 +112,11 @@ def test_the_device_is_asked_about_only_while_bluetooth_is_on():
     assert (off.is_powered, off.is_paired, asked) == (False, None, [])
     on = gather("/dev/rfcomm0", health, port, lambda: True, ask_device)
     assert (on.is_paired, asked) == (False, ["00:06:66:AA:BB:CC"])
+
+
+@pytest.mark.parametrize("url", ["/dev/\0a", "/dev/" + "a" * 300, "/dev/\ud800", "a" * 5000])
+def test_a_text_that_can_be_no_file_is_a_port_that_is_not_there(url: str):
+    assert trouble_of(url) == ""
+    facts = gather(url, health_of(LinkState.NOT_CONNECTED), None)
+    assert facts.exists is False
+    assert "is not there" in advise(facts)[0]

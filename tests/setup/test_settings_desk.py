@@ -305,3 +305,11 @@ def test_a_damaged_pin_opens_to_nobody_and_says_what_to_do(bench: Bench):
     desk.open_lock("1234")
     assert (desk.lock.has_pin, desk.lock.is_open) == (True, False)
     assert "site.toml, line 3 cannot be read: take [lock] out" in desk.lock.text
+
+
+@pytest.mark.parametrize("name", ["left.port", "left.name", "person.name", "person.model"])
+def test_half_a_character_is_refused_before_anything_is_written(bench: Bench, name: str):
+    wrong = bench.opened().change_settings({name: "a\ud800"})
+    assert list(wrong) == [name]
+    assert "\n" not in wrong[name]
+    assert not bench.user.exists()
