@@ -107,6 +107,10 @@ class Desk:
         else:
             self.close()
 
+    def say(self, trouble: str) -> None:
+        """Show what went wrong, until something else is wished for."""
+        self._trouble = trouble
+
     # Wishes on sensors.
 
     def choose_port(self, side: Side, port: str, protocol: str) -> None:

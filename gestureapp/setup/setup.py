@@ -3,6 +3,7 @@
 The thread may wait for the system and for the disk; the window's never does.
 """
 
+import logging
 import queue
 import threading
 import time
@@ -23,6 +24,8 @@ from gestureapp.setup.settings_desk import SettingsDesk
 from gestureapp.setup.site_values import PersonRow, SettingRow
 from gestureapp.setup.snapshot import SetupSnapshot
 from gestureapp.worker import Worker
+
+log = logging.getLogger(__name__)
 
 TICK_S: Final = 0.02
 """While something is measured."""
@@ -236,7 +239,11 @@ class Setup:
             wish = self._wishes.get(timeout=wait_s)
         except queue.Empty:
             return
-        wish(self._desk)
+        try:
+            wish(self._desk)
+        except Exception as error:  # one wish that fails must not take all the others with it
+            log.exception("a wish of setting up failed")
+            self._desk.say(f"that failed ({type(error).__name__}); the log says more, try again")
 
     def _ended(self, error: WorkerError) -> None:
         """Nobody sees any more whether the sensors are still the same: unknown is not ready."""

@@ -181,3 +181,33 @@ def test_settings_without_a_port_say_what_to_do(tmp_path: Path):
     finally:
         setup.shutdown()
         cell.close()
+
+
+@pytest.mark.parametrize("port", ["/dev/\0a", "/dev/" + "a" * 300, "/dev/\ud800"])
+def test_a_text_that_can_be_no_port_is_refused_and_all_goes_on(started: Started, port: str):
+    started.setup.look(True)
+    before = started.user.read_text()
+    started.setup.choose_port(Side.LEFT, port, "csv")
+    started.wait(lambda: "left.port" in started.setup.snapshot().trouble)
+    assert "\n" not in started.setup.snapshot().trouble
+    assert started.user.read_text() == before
+    assert started.cell.settings.left.port == "loop://"
+    started.setup.choose_port(Side.LEFT, "/dev/ttyUSB77", "csv")
+    started.wait(lambda: started.cell.settings.left.port == "/dev/ttyUSB77")
+    started.wait(lambda: started.setup.snapshot().trouble == "")
+
+
+@pytest.mark.logs_errors
+def test_a_wish_that_fails_costs_nothing_but_itself(
+    started: Started, monkeypatch: pytest.MonkeyPatch
+):
+    def fail(*_: object) -> None:
+        raise OSError("something new")
+
+    with monkeypatch.context() as patched:
+        patched.setattr("gestureapp.setup.sensors.Sensors.swap", fail)
+        started.setup.swap_sensors()
+        started.wait(lambda: "that failed (OSError)" in started.setup.snapshot().trouble)
+    started.setup.swap_sensors()
+    started.wait(lambda: started.setup.snapshot().trouble == "")
+    assert started.cell.told[-1] == "left and right sensor are swapped"
