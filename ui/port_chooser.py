@@ -1,6 +1,8 @@
 """Where a sensor is and what it speaks: a list of ports that takes any other one typed in."""
 
-from PySide6.QtCore import Qt, Signal
+from typing import Final
+
+from PySide6.QtCore import Qt, QTimer, Signal
 from PySide6.QtGui import QWheelEvent
 from PySide6.QtWidgets import QComboBox, QGridLayout, QSizePolicy, QWidget
 
@@ -10,6 +12,8 @@ from ui.labels import ElidedLabel, plain
 from ui.setup_words import port_text
 from ui.theme import SMALL_PX, TEXT_PX, sized
 
+TAKEN_WITHIN_MS: Final = 1500
+"""A wish that is taken is in the picture by then; what was not must not look as if it were."""
 _NOWHERE = "type a port or choose one"
 
 
@@ -31,6 +35,9 @@ class PortChooser(QWidget):
         self._ports: tuple[PortChoice, ...] = ()
         self._asked: tuple[str, str] | None = None
         """Since the last moment shown: Qt hands one Enter to the line twice."""
+        self._patience = QTimer(self, singleShot=True, interval=TAKEN_WITHIN_MS)
+        self._patience.timeout.connect(self._show_as_it_is)
+        self._wish = ""
         self._port = _QuietCombo(f"{name}Port", f"Port of the {name} arm's sensor")
         self._port.setEditable(True)
         self._port.setInsertPolicy(QComboBox.InsertPolicy.NoInsert)
@@ -72,8 +79,15 @@ class PortChooser(QWidget):
     def _show_port(self, url: str) -> None:
         index = self._port.findData(url)
         self._port.setCurrentIndex(index)
-        if index < 0:
-            self._port.setEditText(url)
+        self._port.setEditText(url if index < 0 else self._port.itemText(index))
+
+    def _show_as_it_is(self) -> None:
+        """Take back what was wished for and not taken; what is typed since stays."""
+        if self._card is None:
+            return
+        if self._port.currentText() == self._wish:
+            self._show_port(self._card.port)
+        self._protocol.setCurrentIndex(self._protocol.findData(self._card.protocol))
 
     def _take_item(self, index: int) -> None:
         self._choose(self._port.itemData(index))
@@ -92,6 +106,8 @@ class PortChooser(QWidget):
         is_so = self._card is not None and wish == (self._card.port, self._card.protocol)
         if not is_so and wish != self._asked:
             self._asked = wish
+            self._wish = self._port.currentText()
+            self._patience.start()
             self.chosen.emit(*wish)
 
     def _connect(self) -> None:

@@ -15,7 +15,7 @@ from gestureapp.setup.sides import Sides, find_swapped, load_sides, save_sides
 from gestureapp.setup.values import PortChoice, SensorCard
 
 Remember = Callable[[Mapping[str, object]], Mapping[str, str]]
-"""Writes these settings, by dotted name, into the user's file and has them used; else why not."""
+"""Has these settings used, by dotted name, and writes them into the user's file; else why not."""
 
 
 class Sensors:
@@ -41,6 +41,7 @@ class Sensors:
         self._sides = load_sides(data)
         self._judged_s = 0.0
         self._asked: dict[Side, SensorSettings] = {}
+        self._to_tell: list[tuple[dict[Side, SensorSettings], str]] = []
         self.trouble = ""
 
     def look(
@@ -68,6 +69,7 @@ class Sensors:
         for side, arm in self.arms.items():
             self._wanted(side)
             arm.look(now_s, health[side], self._watch.port(self._port_of(side)))
+        self._tell()
         self._adopt(now_s)
         swapped = find_swapped(self._sides, self._seen())
         for arm in self.arms.values():
@@ -96,18 +98,17 @@ class Sensors:
         known = next((found for found in self.ports() if found.url == port), None)
         before = self.arms[side].settings
         name = before.name if before.port == port else ""
-        self._use({side: SensorSettings(port, protocol, name)})
+        said = f"{side.value} sensor: {known.name if known else port}, {protocol}"
+        self._use({side: SensorSettings(port, protocol, name)}, said)
         self._sides = self._sides.assigned(side, "")
         self._save_sides()
-        self._cell.tell(f"{side.value} sensor: {known.name if known else port}, {protocol}")
 
     def swap(self) -> None:
         """The left sensor is the right one from now on, and the other way round."""
         left, right, seen = self._wanted(Side.LEFT), self._wanted(Side.RIGHT), self._seen()
-        self._use({Side.LEFT: right, Side.RIGHT: left})
+        self._use({Side.LEFT: right, Side.RIGHT: left}, "left and right sensor are swapped")
         self._sides = seen.swapped()
         self._save_sides()
-        self._cell.tell("left and right sensor are swapped")
 
     def confirm(self) -> None:
         """They are assigned rightly as they are: a person has shown it."""
@@ -141,7 +142,20 @@ class Sensors:
             self._sides = sides
             self._save_sides()
 
-    def _use(self, chosen: dict[Side, SensorSettings]) -> None:
+    def _tell(self) -> None:
+        """Tell of what was chosen once it is in force; what was taken back before is not told."""
+        waiting = []
+        for chosen, said in self._to_tell:
+            if all(self._cell_has(side, settings) for side, settings in chosen.items()):
+                self._cell.tell(said)
+            elif all(self._asked.get(side) == settings for side, settings in chosen.items()):
+                waiting.append((chosen, said))
+        self._to_tell = waiting
+
+    def _cell_has(self, side: Side, settings: SensorSettings) -> bool:
+        return side not in self._asked and sensor_of(self._cell.settings, side) == settings
+
+    def _use(self, chosen: dict[Side, SensorSettings], said: str) -> None:
         """What cannot be written, as a file named at the start has it, is used until the end."""
         changes = {
             f"{side.value}.{name}": getattr(settings, name)
@@ -149,10 +163,8 @@ class Sensors:
             for name in ("port", "protocol", "name")
         }
         wrong = self._remember(changes)
-        if wrong:
-            for side, settings in chosen.items():
-                self._cell.use_sensor(side, settings)
         self._asked |= chosen
+        self._to_tell.append((chosen, said))
         self.trouble = ""
         if wrong and not self._cell.settings.is_simulation:
             why = "; ".join(dict.fromkeys(wrong.values()))

@@ -88,6 +88,7 @@ class SettingsDesk:
         self._contents = self._all_contents()
         self._layers = self._read()
         self._used = settings
+        self._unkept: frozenset[str] = frozenset()
         pin = self._layers.pin
         self._lock = Lock(clock, pin.pin_hash, str(pin.origin))
         self._rows = self._drawn()
@@ -133,6 +134,7 @@ class SettingsDesk:
             except ConfigError as error:
                 return dict.fromkeys(changes, _in_words(error))
             before, self._layers, self._used = self._used, trial.layers, trial.settings
+            self._unkept -= changes.keys()
             self._contents = self._all_contents()
             self._rows = self._drawn()
             for line in _told(before, self._used):
@@ -144,6 +146,31 @@ class SettingsDesk:
                 why = f"written, but used from the next start on only: {error.reason}"
                 return dict.fromkeys(changes, why)
         return {}
+
+    def use_sensors(self, changes: Mapping[str, object]) -> Mapping[str, str]:
+        """Have other sensors read, and remember them; what cannot be written is used all the same.
+
+        Args:
+            changes: Of the tables ``left`` and ``right``, by dotted name.
+
+        Returns:
+            Why the next start will not find them, by name; empty when it will.
+
+        Raises:
+            ConfigError: the cell cannot use them; nothing is changed then.
+        """
+        wrong = self.change_settings(changes)
+        if not wrong:
+            return {}
+        with self._mutex:
+            used = _with(self._used, changes)
+            self._use(used)
+            self._used = used
+            kept = _values(self._layers.settings)
+            unkept = {name for name, value in changes.items() if kept[name] != value}
+            self._unkept = (self._unkept - changes.keys()) | unkept
+            self._rows = self._drawn()
+        return wrong if unkept else {}
 
     def open_lock(self, pin: str) -> None:
         """Give the PIN, which takes some 50 ms; what bears on motion can be changed then."""
@@ -197,12 +224,15 @@ class SettingsDesk:
         return why
 
     def _real(self, changes: Mapping[str, object]) -> dict[str, object]:
-        """Without what is as it was."""
+        """Without what is as it was, and will be so at the next start."""
         values = {name: plain(value) for name, _, value in named_values(self._used)}
         return {
             name: value
             for name, value in changes.items()
-            if value is None or name not in values or as_toml(value) != as_toml(values[name])
+            if value is None
+            or name not in values
+            or name in self._unkept
+            or as_toml(value) != as_toml(values[name])
         }
 
     def _tried(self, changes: Mapping[str, object]) -> _Trial:
@@ -221,7 +251,7 @@ class SettingsDesk:
             return _Trial(dict.fromkeys(changes, _in_words(error)))
         wrong = _new_findings(self._layers.findings, layers.findings)
         wrong |= self._not_taken(changes, layers)
-        settings = _changed(self._used, self._layers.settings, layers.settings)
+        settings = _changed(self._used, self._layers.settings, layers.settings, changes)
         wrong |= _new_findings(check_settings(self._used), check_settings(settings))
         if not wrong:
             try:
@@ -309,34 +339,50 @@ class SettingsDesk:
         key = name.partition(".")[2]
         origin = self._layers.origins[name]
         fixed = ""
-        if is_given and not self._memory:
-            fixed = "given when the application was started; it cannot be changed here"
-        elif origin.is_named:
+        if origin.is_named:
             fixed = f"set by {origin}; change it there"
+        elif is_given and not self._memory and name not in self._unkept:
+            fixed = "given when the application was started; it cannot be changed here"
         return SettingRow(
             name=name,
             about=about(owner, key),
             value=plain(value),
             unit=unit_of(key),
             allowed=allowed(owner, key),
-            origin="given at the start" if is_given else str(origin),
+            origin=self._origin_words(name, is_given),
             is_locked=False,
             choices=choices(owner, key),
             fixed=fixed,
         )
+
+    def _origin_words(self, name: str, is_given: bool) -> str:
+        if name in self._unkept:
+            return str(_NOT_KEPT)
+        return "given at the start" if is_given else str(self._layers.origins[name])
 
 
 def _values(settings: Settings) -> dict[str, Any]:
     return {name: value for name, _, value in named_values(settings)}
 
 
-def _changed(used: Settings, before: Settings, after: Settings) -> Settings:
-    """The used settings with what differs between two readings of the files."""
+def _changed(
+    used: Settings, before: Settings, after: Settings, wishes: Mapping[str, object] | None = None
+) -> Settings:
+    """The used settings with what differs between two readings of the files.
+
+    What is wished for is taken even where the files say so already: something else may be in use,
+    as with a demo, which is not started from its files.
+    """
     old, new = _values(before), _values(after)
-    for name in new:
-        if new[name] != old[name]:
-            table, _, key = name.partition(".")
-            used = replace(used, **{table: replace(getattr(used, table), **{key: new[name]})})
+    given = {name for name, value in (wishes or {}).items() if value is not None}
+    return _with(used, {n: new[n] for n in new if new[n] != old[n] or n in given})
+
+
+def _with(used: Settings, values: Mapping[str, object]) -> Settings:
+    """The used settings with these values, by dotted name."""
+    for name, value in values.items():
+        table, _, key = name.partition(".")
+        used = replace(used, **{table: replace(getattr(used, table), **{key: value})})
     return used
 
 

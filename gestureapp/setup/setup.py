@@ -62,7 +62,7 @@ class Setup:
     ) -> None:
         self._cell, self._settings = cell, settings
         people = source or PeopleSource()
-        self._desk = Desk(cell, data, settings.change_settings, people, clock, wall_clock)
+        self._desk = Desk(cell, data, settings.use_sensors, people, clock, wall_clock)
         self._wishes: queue.SimpleQueue[Wish] = queue.SimpleQueue()
         self._is_open = False
         self._worker = Worker("setup", self._run, self._ended)

@@ -185,6 +185,20 @@ def test_a_demo_changes_settings_for_this_run_only(bench: Bench):
     assert desk.change_settings({"robot.speed_mm_s": 40.0}) == {"robot.speed_mm_s": LOCKED}
 
 
+def test_a_demo_takes_what_its_files_would_have_said_anyway(bench: Bench):
+    left, right = SensorSettings("socket://a", "adxl330"), SensorSettings("socket://b", "csv")
+    emulated = replace(Settings(), left=left, right=right, is_simulation=True)
+    desk = SettingsDesk([], None, emulated, bench.cell.used.append)
+    assert desk.change_settings({"left.protocol": "csv"}) == {}
+    assert bench.cell.used[-1].left == SensorSettings("socket://a", "csv")
+    assert desk.change_settings({"left.protocol": "adxl330"}) == {}
+    swap = {"left.port": "socket://b", "left.protocol": "csv"}
+    assert (
+        desk.change_settings(swap | {"right.port": "socket://a", "right.protocol": "adxl330"}) == {}
+    )
+    assert (bench.cell.used[-1].left, bench.cell.used[-1].right) == (right, left)
+
+
 def test_what_was_given_at_the_start_beside_the_files_stays(bench: Bench):
     given = replace(Settings(), robot=RobotSettings(tool=3))
     desk = SettingsDesk([bench.site, bench.user], None, given, bench.cell.used.append)

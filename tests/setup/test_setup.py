@@ -30,18 +30,19 @@ from tests.setup.bench import LIMIT_S, ReadCell
 class Started:
     """Setting up, started, in front of a cell whose sensors are on pyserial's own loop."""
 
-    def __init__(self, folder: Path) -> None:
+    def __init__(self, folder: Path, named: Path | None = None) -> None:
         self.data, self.user = folder / "data", folder / "settings.toml"
         self.data.mkdir()
         self.files = [folder / "site.toml", self.user]
         self.user.write_text(
             'schema = 1\n# ours\n[left]\nport = "loop://"\n[right]\nport = "loop://"\n'
         )
-        settings, _ = load_settings(self.files)
-        settings = replace(settings, person=PersonSettings("Ana"))
+        settings, _ = load_settings(self.files, named)
+        if named is None:
+            settings = replace(settings, person=PersonSettings("Ana"))
         self.cell = ReadCell(settings, time.monotonic)
         use = SettingsUse(self.cell, settings)  # type: ignore[arg-type]
-        desk = SettingsDesk(self.files, None, settings, use, tell=self.cell.tell)
+        desk = SettingsDesk(self.files, named, settings, use, tell=self.cell.tell)
         self.setup = Setup(self.cell, self.data, desk)  # type: ignore[arg-type]
         self.setup.start_thread()
 
@@ -103,6 +104,50 @@ def test_swapping_is_remembered_too(started: Started):
     started.wait(lambda: started.setup.snapshot().right.port == "socket://127.0.0.1:9")
     settings, _ = load_settings(started.files)
     assert (settings.left.port, settings.right.port) == ("loop://", "socket://127.0.0.1:9")
+
+
+@pytest.fixture
+def named(tmp_path: Path) -> Iterator[Started]:
+    """As ``started``, with a file named at the start that has both ports."""
+    file = tmp_path / "named.toml"
+    file.write_text(
+        'schema = 1\n[left]\nport = "loop://?l"\n'
+        '[right]\nport = "loop://?r"\nprotocol = "adxl330"\n'
+    )
+    made = Started(tmp_path, file)
+    yield made
+    made.close()
+
+
+def test_sensors_of_a_named_file_are_swapped_as_often_as_it_is_asked_for(named: Started):
+    ports = [("loop://?r", "loop://?l"), ("loop://?l", "loop://?r")] * 2
+    for n_done, (left, right) in enumerate(ports, 1):
+        named.setup.swap_sensors()
+        named.wait(lambda n=n_done: named.cell.told.count("left and right sensor are swapped") == n)
+        assert (named.cell.settings.left.port, named.cell.settings.right.port) == (left, right)
+        trouble = named.setup.snapshot().trouble
+        assert ("not remembered" in trouble) == (left == "loop://?r"), trouble
+    assert named.cell.settings.right.protocol == "adxl330"
+
+
+def test_a_port_of_a_named_file_is_typed_away_and_back(named: Started):
+    for port in ("socket://127.0.0.1:9", "loop://?l", "socket://127.0.0.1:9"):
+        named.setup.choose_port(Side.LEFT, port, "csv")
+        named.wait(lambda port=port: named.setup.snapshot().left.port == port)
+        named.wait(lambda port=port: named.cell.told[-1:] == [f"left sensor: {port}, csv"])
+    row = next(row for row in named.setup.settings() if row.name == "left.port")
+    assert (row.value, row.origin) == ("socket://127.0.0.1:9", "this run only")
+    assert "named.toml" in row.fixed
+
+
+def test_swapping_is_told_once_it_is_in_force(named: Started):
+    named.cell.is_busy = True
+    named.setup.swap_sensors()
+    named.wait(lambda: "not remembered" in named.setup.snapshot().trouble)
+    assert named.cell.told == []
+    named.cell.take()
+    named.wait(lambda: named.cell.told == ["left and right sensor are swapped"])
+    assert named.cell.settings.left.port == "loop://?r"
 
 
 def test_a_file_that_cannot_be_written_costs_only_the_memory(started: Started):

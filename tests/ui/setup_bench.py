@@ -177,6 +177,7 @@ class FakeSetup:
         folk: What ``people`` gives.
         refused: What ``change_settings`` says; then nothing is changed.
         answer: What every call that says why not says.
+        takes_ports: A chosen port is used.
     """
 
     def __init__(self, shown: SetupSnapshot | None = None) -> None:
@@ -187,6 +188,7 @@ class FakeSetup:
         self.refused: dict[str, str] = {}
         self.answer = ""
         self.is_open = False
+        self.takes_ports = True
 
     def show(self, **changes: object) -> None:
         """Change some of what is shown."""
@@ -205,7 +207,8 @@ class FakeSetup:
     def choose_port(self, side: Side, port: str, protocol: str) -> None:
         self.calls.append(f"choose_port {side.value} {port} {protocol}")
         name = "left" if side is Side.LEFT else "right"
-        self.show(**{name: replace(getattr(self.shown, name), port=port, protocol=protocol)})
+        if self.takes_ports:
+            self.show(**{name: replace(getattr(self.shown, name), port=port, protocol=protocol)})
 
     def find_sensors(self) -> None:
         self.calls.append("find_sensors")

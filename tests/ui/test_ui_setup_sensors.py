@@ -120,6 +120,23 @@ def test_a_protocol_is_chosen_for_the_same_port(room):
     assert room.text("leftPortAbout").startswith("one line a sample, in g")
 
 
+def test_a_wish_that_was_not_taken_is_not_shown_for_long(room, qtbot):
+    room.setup.takes_ports = False
+    choose(room, "leftProtocol", 0)
+    assert combo(room, "leftProtocol").currentText() == "csv"
+    line = combo(room, "rightPort").lineEdit()
+    line.selectAll()
+    QTest.keyClicks(line, "socket://10.0.0.7:4001")
+    QTest.keyClick(line, Qt.Key.Key_Return)
+
+    def are_back():
+        room.look()
+        assert combo(room, "leftProtocol").currentText() == "witmotion"
+        assert combo(room, "rightPort").currentText() == "BWT901CL right  (/dev/rfcomm1)"
+
+    qtbot.waitUntil(lambda: are_back() is None, timeout=5000)
+
+
 def test_ports_that_come_and_go_leave_the_chosen_one(room):
     room.show(ports=(PortChoice("/dev/ttyACM0", "Arduino"), LEFT_PORT))
     assert combo(room, "leftPort").currentText() == "BWT901CL left  (/dev/rfcomm0)"
