@@ -2,24 +2,41 @@
 
 A package names a ``Protocol`` in the entry point group ``gestureapp.protocols``, as shown in
 ``docs/sensors.md``. A plug-in is somebody else's code: whatever it raises, here or while it
-decodes, becomes one line, and no thread ends by it.
+decodes, ``SystemExit`` too, becomes one line, and no thread ends by it. Only Ctrl+C goes through.
+What its decoder gives is checked field by field, as what follows relies on it.
 """
 
 import math
 import re
+import reprlib
 from collections.abc import Collection, Iterable
 from dataclasses import replace
 from importlib.metadata import EntryPoint, entry_points
 
+from gestureapp.sensing.counter import MAX_MISSED
 from gestureapp.sensing.decoder import Decoder
 from gestureapp.sensing.lines import FIRST_BYTES
 from gestureapp.sensing.protocols import Protocol
-from gestureapp.sensing.values import DecoderEvent, Frame, Garbage
+from gestureapp.sensing.values import (
+    Battery,
+    CounterGap,
+    CounterJump,
+    DecoderEvent,
+    Frame,
+    Garbage,
+    Identity,
+)
 
 GROUP = "gestureapp.protocols"
 
 NAME_MAX = 40
+"""Characters of a protocol's name, and of what a sensor calls itself."""
+LINE_MAX = 120
+"""Characters of what a plug-in says was wrong."""
+
 _NAME = re.compile(r"[a-z0-9][a-z0-9_.-]*")
+_MOST = (1 << 63) - 1
+"""No sensor counts further."""
 _NOWHERE = (math.nan, math.nan, math.nan)
 """No sensor can have measured that, so a frame with it becomes no sample."""
 
@@ -63,7 +80,9 @@ def _load(point: EntryPoint, taken: Collection[str]) -> Protocol | str:
     try:
         given = point.load()
         wrong = _wrong(given, taken) if isinstance(given, Protocol) else _no_protocol(given)
-    except Exception as error:  # somebody else's code may raise anything
+    except KeyboardInterrupt:
+        raise
+    except BaseException as error:  # somebody else's code may raise anything, SystemExit too
         return f"it fails with {_shown(error)}; mend or remove the package"
     return wrong or _guarded(given)
 
@@ -80,7 +99,8 @@ def _wrong(given: Protocol, taken: Collection[str]) -> str:
     """
     name = given.name
     if not (isinstance(name, str) and len(name) <= NAME_MAX and _NAME.fullmatch(name)):
-        return f"its name {name!r} is not of small letters, digits, '_', '.', '-'; rename it"
+        wrong = "is not of small letters, digits, '_', '.', '-'; rename it"
+        return f"its name {reprlib.repr(name)} {wrong}"
     if name in taken:
         return f"{name!r} is a built-in protocol; rename it"
     if not isinstance(given.words, str) or not given.words.strip():
@@ -88,7 +108,9 @@ def _wrong(given: Protocol, taken: Collection[str]) -> str:
     limit_g = given.limit_g
     is_number = isinstance(limit_g, int | float) and not isinstance(limit_g, bool)
     if not (is_number and math.isfinite(limit_g) and limit_g > 0):
-        return f"its limit_g {limit_g!r} is no acceleration; give the sensor's range in g"
+        return (
+            f"its limit_g {reprlib.repr(limit_g)} is no acceleration; give the sensor's range in g"
+        )
     decoder = given.new_decoder()
     if not all(callable(getattr(decoder, method, None)) for method in ("feed", "end")):
         return "its decoder has no feed and end; see gestureapp.sensing.decoder.Decoder"
@@ -104,7 +126,9 @@ def _guarded(given: Protocol) -> Protocol:
     def to_nominal_g(raw: tuple[float, float, float]) -> tuple[float, float, float]:
         try:
             return _vector(given.to_nominal_g(raw))
-        except Exception:  # somebody else's code; the reader tells of the value
+        except KeyboardInterrupt:
+            raise
+        except BaseException:  # somebody else's code; the reader tells of the value
             return _NOWHERE
 
     return replace(given, new_decoder=lambda: GuardedDecoder(given), to_nominal_g=to_nominal_g)
@@ -129,38 +153,89 @@ class GuardedDecoder:
             if self._decoder is None:
                 self._decoder = self._given.new_decoder()
             return _checked(self._decoder.feed(data))
-        except Exception as error:  # somebody else's code may raise anything
+        except KeyboardInterrupt:
+            raise
+        except BaseException as error:  # somebody else's code may raise anything
             return self._failed(data, error)
 
     def end(self) -> list[DecoderEvent]:
         """What the plug-in's decoder makes of the end of the stream."""
         try:
             return [] if self._decoder is None else _checked(self._decoder.end())
-        except Exception as error:  # as above
+        except KeyboardInterrupt:
+            raise
+        except BaseException as error:  # as above
             return self._failed(b"", error)
 
-    def _failed(self, data: bytes, error: Exception) -> list[DecoderEvent]:
+    def _failed(self, data: bytes, error: BaseException) -> list[DecoderEvent]:
         self._decoder = None
         reason = f"the plug-in {self._given.name!r} failed with {_shown(error)}"
         return [Garbage(len(data), data[:FIRST_BYTES], reason)]
 
 
 def _checked(events: object) -> list[DecoderEvent]:
-    """The list as it is.
+    """The list, of events that are what they should be.
 
     Raises:
         TypeError: it is no list of events.
+        ValueError: what one of them says cannot be.
     """
     if not isinstance(events, list):
         raise TypeError(f"a {type(events).__name__} instead of a list of events")
-    for event in events:
-        if not isinstance(event, DecoderEvent):
-            raise TypeError(f"a {type(event).__name__} instead of an event")
-        if isinstance(event, Frame):
-            _vector(event.raw)
-            if not isinstance(event.counter, int | None):
-                raise TypeError(f"running number {event.counter!r} instead of a whole number")
-    return events
+    return [_event(event) for event in events]
+
+
+def _event(event: object) -> DecoderEvent:
+    match event:
+        case Frame(counter, raw):
+            number = counter if counter is None else _whole(counter, 0, _MOST)
+            return Frame(number, _vector(raw))
+        case Garbage():
+            return _garbage(event)
+        case CounterGap(missed):
+            return CounterGap(_whole(missed, 1, MAX_MISSED))
+        case CounterJump(before, now):
+            return CounterJump(_whole(before, 0, _MOST), _whole(now, 0, _MOST))
+        case Identity(name):
+            return Identity(_name(name))
+        case Battery(percent):
+            if not isinstance(percent, int | float) or not 0 <= percent <= 100:
+                raise ValueError(f"battery {reprlib.repr(percent)} instead of 0 to 100 percent")
+            return Battery(float(percent))
+    raise TypeError(f"a {type(event).__name__} instead of an event")
+
+
+def _whole(value: object, low: int, high: int) -> int:
+    if type(value) is not int:
+        raise TypeError(f"number {reprlib.repr(value)} instead of a whole number")
+    if not low <= value <= high:
+        raise ValueError(f"a whole number beyond {low} to {high}")
+    return value
+
+
+def _name(value: object) -> str:
+    if not (isinstance(value, str) and 0 < len(value) <= NAME_MAX and value.isprintable()):
+        raise ValueError(
+            f"name {reprlib.repr(value)} instead of 1 to {NAME_MAX} printable characters"
+        )
+    return value
+
+
+def _garbage(event: Garbage) -> Garbage:
+    if not (isinstance(event.first_bytes, bytes) and isinstance(event.reason, str)):
+        raise TypeError("garbage whose first bytes are no bytes, or whose reason is no text")
+    return replace(
+        event,
+        n_bytes=_whole(event.n_bytes, 0, _MOST),
+        first_bytes=event.first_bytes[:FIRST_BYTES],
+        reason=_line(event.reason),
+    )
+
+
+def _line(text: str) -> str:
+    """A text of anybody's as one line of bounded length."""
+    line = " ".join(text[: 10 * LINE_MAX].split())
+    return "".join(sign if sign.isprintable() else "?" for sign in line)[:LINE_MAX]
 
 
 def _vector(given: object) -> tuple[float, float, float]:
@@ -173,7 +248,7 @@ def _vector(given: object) -> tuple[float, float, float]:
         x, y, z = given
         if all(isinstance(value, int | float) for value in given):
             return float(x), float(y), float(z)
-    raise TypeError(f"{given!r} instead of three numbers")
+    raise TypeError(f"{reprlib.repr(given)} instead of three numbers")
 
 
 def _words(point: EntryPoint) -> str:
@@ -181,7 +256,10 @@ def _words(point: EntryPoint) -> str:
     return f"{point.name!r}{package} ({point.value})"
 
 
-def _shown(error: Exception) -> str:
+def _shown(error: BaseException) -> str:
     """The error in one line of bounded length."""
-    text = " ".join(str(error).split())[:120]
+    try:
+        text = _line(str(error))
+    except Exception:  # even this is the plug-in's code
+        text = ""
     return f"{type(error).__name__}: {text}" if text else type(error).__name__

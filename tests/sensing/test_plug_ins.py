@@ -15,7 +15,17 @@ from gestureapp.sensing.calibration import NOMINAL, accel_of
 from gestureapp.sensing.decoder import LineDecoder
 from gestureapp.sensing.plug_ins import GROUP, load_plug_ins
 from gestureapp.sensing.protocols import BUILT_IN, Protocol, plug_in_findings, protocol, protocols
-from gestureapp.sensing.values import CounterGap, Frame, Garbage, Impossible
+from gestureapp.sensing.values import (
+    Battery,
+    CounterGap,
+    CounterJump,
+    DecoderEvent,
+    Frame,
+    Garbage,
+    Identity,
+    Impossible,
+    Repeated,
+)
 from tests.cell.conftest import wait_until
 from tests.sensing.test_reader import Bench, script
 
@@ -144,7 +154,7 @@ class _Point:
         self._thing = thing
 
     def load(self) -> object:
-        if isinstance(self._thing, Exception):
+        if isinstance(self._thing, BaseException):
             raise self._thing
         return self._thing
 
@@ -167,7 +177,7 @@ class _Decoder:
         return self._does(b"end")
 
 
-def _raise(error: Exception) -> object:
+def _raise(error: BaseException) -> object:
     raise error
 
 
@@ -191,6 +201,8 @@ def _raise(error: Exception) -> object:
         (made(to_nominal_g=lambda raw: ("a", "b", "c")), "instead of three numbers"),
         (ValueError("two\nlines"), "it fails with ValueError: two lines; mend"),
         (ImportError(), "it fails with ImportError; mend"),
+        (SystemExit(3), "it fails with SystemExit: 3; mend"),
+        (made(new_decoder=lambda: _raise(SystemExit())), "it fails with SystemExit; mend"),
     ],
 )
 def test_a_plug_in_that_is_not_what_it_should_be_is_one_clear_line(thing: object, words: str):
@@ -223,7 +235,22 @@ def guarded(does: Callable[[bytes], object]) -> Protocol:
         (lambda data: ["frame"], "TypeError: a str instead of an event"),
         (lambda data: [Frame(None, (1.0, 2.0))], "instead of three numbers"),  # type: ignore[arg-type]
         (lambda data: [Frame(None, ("x", 0.0, 0.0))], "instead of three numbers"),  # type: ignore[arg-type]
-        (lambda data: [Frame(1.5, (0.0, 0.0, 1.0))], "running number 1.5"),  # type: ignore[arg-type]
+        (lambda data: [Frame(1.5, (0.0, 0.0, 1.0))], "number 1.5 instead"),  # type: ignore[arg-type]
+        (lambda data: [Frame(-1, (0.0, 0.0, 1.0))], "a whole number beyond 0"),
+        (lambda data: [Frame(None, (10**400, 0, 0))], "OverflowError"),
+        (lambda data: [Identity("x" * 41)], "instead of 1 to 40 printable"),
+        (lambda data: [Identity("")], "name '' instead"),
+        (lambda data: [Identity("a\nb")], "instead of 1 to 40 printable"),
+        (lambda data: [Identity(7)], "name 7 instead"),  # type: ignore[arg-type]
+        (lambda data: [Battery(101)], "battery 101 instead of 0 to 100 percent"),
+        (lambda data: [Battery(float("nan"))], "battery nan instead"),
+        (lambda data: [Battery("full")], "battery 'full' instead"),  # type: ignore[arg-type]
+        (lambda data: [CounterGap(0)], "a whole number beyond 1 to 6000"),
+        (lambda data: [CounterGap(10**400)], "a whole number beyond"),
+        (lambda data: [CounterGap("3")], "number '3' instead"),  # type: ignore[arg-type]
+        (lambda data: [CounterJump(1, None)], "number None instead"),  # type: ignore[arg-type]
+        (lambda data: [Garbage(1, b"", None)], "whose reason is no text"),  # type: ignore[arg-type]
+        (lambda data: _raise(SystemExit(3)), "SystemExit: 3"),
     ],
 )
 def test_a_decoder_of_a_plug_in_that_fails_gives_garbage(
@@ -235,6 +262,46 @@ def test_a_decoder_of_a_plug_in_that_fails_gives_garbage(
     assert (event.n_bytes, event.first_bytes) == (3, b"abc")
     assert words in event.reason
     assert decoder.end() == []
+
+
+def test_what_a_decoder_of_a_plug_in_rightly_gives_comes_through():
+    given: list[DecoderEvent] = [
+        Frame(None, (1, 2.5, -3)),
+        Frame(2**32, (0.0, 0.0, 1.0)),
+        Garbage(3, b"abc", "no line"),
+        Repeated(3, b"abc", "came twice"),
+        CounterGap(6000),
+        CounterJump(9, 7),
+        Identity("arm 7"),
+        Battery(100),
+    ]
+    assert guarded(lambda data: given).new_decoder().feed(b"x") == given
+
+
+def test_garbage_of_a_plug_in_is_told_in_one_line_of_bounded_length():
+    told = Garbage(9, b"x" * 100, "a\nb\0" + "c" * 1000)
+    (event,) = guarded(lambda data: [told]).new_decoder().feed(b"x")
+    assert isinstance(event, Garbage)
+    assert event.reason.startswith("a b?ccc")
+    assert (len(event.reason), len(event.first_bytes)) == (120, 32)
+
+
+def test_ctrl_c_goes_through_a_plug_in():
+    decoder = guarded(lambda data: _raise(KeyboardInterrupt())).new_decoder()
+    with pytest.raises(KeyboardInterrupt):
+        decoder.feed(b"x")
+
+
+def test_a_reader_outlives_a_plug_in_that_ends_the_program(install: Install):
+    code = (EXAMPLE / "milli_g_protocol.py").read_text()
+    code = f"import sys\n{code}"
+    broken = code.replace("raw[0] / 1000", "sys.exit(1) if raw[0] else 0.0")
+    assert broken != code
+    install("leaving", {"milli-g": "leaving_protocol:PROTOCOL"}, broken)
+    pieces = (b"\nA7 x=-12 y=4 z=998\r\n", b"A9 x=0 y=0 z=1000\n")
+    with Bench("script", "milli-g", opener=script(*pieces)) as bench:
+        assert isinstance(bench.next(Impossible), Impossible)
+        assert bench.samples(1)[0].accel_g == (0.0, 0.0, 1.0)
 
 
 def test_a_decoder_of_a_plug_in_that_fails_at_the_end_gives_garbage():
