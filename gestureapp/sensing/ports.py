@@ -7,6 +7,7 @@ Everything else, devices and other URLs, is ``serial.serial_for_url``.
 """
 
 import errno
+import os
 import re
 import socket
 import sys
@@ -173,12 +174,32 @@ def open_failure(sensor: str, where: str, error: Exception) -> SensorError:
     return SensorError(sensor, f"{where} cannot be opened ({cause}): choose another port")
 
 
+def is_same_port(one: str, other: str) -> bool:
+    """Whether two texts mean one port, as far as that can be told without opening it.
+
+    Devices are one behind whatever links. Each ``loop://`` is its own.
+    """
+    if not one or not other or one.lower().startswith("loop://"):
+        return False
+    return one == other or _plain(one) == _plain(other)
+
+
 def group_of(device: str) -> str:
     """Name of the group that may use a device file; empty where there is no such thing."""
     try:
         return Path(device).group()
     except (OSError, KeyError, ValueError, NotImplementedError):
         return ""
+
+
+def _plain(url: str) -> str:
+    """A port's text without what makes no difference."""
+    if "://" in url:
+        return url.lower().rstrip("/").replace("://localhost:", "://127.0.0.1:")
+    try:
+        return os.path.normcase(os.path.realpath(url) if os.name == "posix" else url)
+    except (OSError, ValueError):
+        return url
 
 
 def _address(sensor: str, url: str) -> tuple[str, tuple[str, int]]:

@@ -117,18 +117,18 @@ class ArmSensor:
             self.record, self.trouble = load_record(self._data, known.id)
         self.known = known
 
-    def judge(self, wall_s: float, swapped: tuple[str, str]) -> None:
+    def judge(self, wall_s: float, wrong_sides: tuple[str, str]) -> None:
         """Tell the cell how its samples are corrected, and whether it may be armed with.
 
         Args:
             wall_s: Seconds since the epoch.
-            swapped: What is wrong with who is on which arm, and the remedy.
+            wrong_sides: What is wrong with who is on which arm, and the remedy.
         """
         used = self.record.used if self.raw is None else self.raw
         if used != self._used:
             self._used = used
             self._cell.use_calibration(self.side, used)
-        self.act, (self.problem, self.remedy) = self._judged(wall_s, swapped)
+        self.act, (self.problem, self.remedy) = self._judged(wall_s, wrong_sides)
         if self._told != (self.problem, self.remedy):
             self._told = (self.problem, self.remedy)
             self._cell.judge_sensor(self.side, self.problem, self.remedy)
@@ -188,7 +188,9 @@ class ArmSensor:
         since_s = self._receiving_s
         return since_s is None or now_s - since_s < IDENTITY_WITHIN_S
 
-    def _judged(self, wall_s: float, swapped: tuple[str, str]) -> tuple[Remedy, tuple[str, str]]:
+    def _judged(
+        self, wall_s: float, wrong_sides: tuple[str, str]
+    ) -> tuple[Remedy, tuple[str, str]]:
         """The button that helps; what is wrong, and the remedy in words."""
         site: SiteSettings = self._cell.settings.site
         if not self.settings.port:
@@ -196,8 +198,8 @@ class ArmSensor:
         if self.raw is not None:
             words = ("it is being calibrated", "finish it, or end it: Setup, Calibrate")
             return Remedy.CALIBRATE, words
-        if swapped[0]:
-            return (Remedy.SWAP if swapped[0] == SWAPPED else Remedy.FIND), swapped
+        if wrong_sides[0]:
+            return (Remedy.SWAP if wrong_sides[0] == SWAPPED else Remedy.FIND), wrong_sides
         if self.trouble:
             cause, _, remedy = self.trouble.rpartition("; ")
             return Remedy.CALIBRATE, (cause, remedy)

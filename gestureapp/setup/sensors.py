@@ -6,12 +6,13 @@ from pathlib import Path
 from gestureapp.cell.controls import CellControls
 from gestureapp.config import SensorSettings, Settings
 from gestureapp.errors import ConfigError, GestureAppError
+from gestureapp.sensing.ports import is_same_port
 from gestureapp.sensing.values import Side, StreamHealth
 from gestureapp.settings_check import why_out_of_range
 from gestureapp.settings_values import short
 from gestureapp.setup.arm_sensor import ArmSensor
 from gestureapp.setup.port_watch import PortWatch
-from gestureapp.setup.sides import Sides, find_swapped, load_sides, save_sides
+from gestureapp.setup.sides import SAME_PORT, Sides, find_swapped, load_sides, save_sides
 from gestureapp.setup.values import PortChoice, SensorCard
 
 Remember = Callable[[Mapping[str, object]], Mapping[str, str]]
@@ -71,9 +72,9 @@ class Sensors:
             arm.look(now_s, health[side], self._watch.port(self._port_of(side)))
         self._tell()
         self._adopt(now_s)
-        swapped = find_swapped(self._sides, self._seen())
+        wrong_sides = self._wrong_sides()
         for arm in self.arms.values():
-            arm.judge(self._judged_s, swapped)
+            arm.judge(self._judged_s, wrong_sides)
 
     def card(self, side: Side, health: StreamHealth, wall_s: float) -> SensorCard:
         """One arm's sensor for the window."""
@@ -91,9 +92,10 @@ class Sensors:
         """Read this arm's sensor from there, and remember it; who is there then belongs there.
 
         Raises:
-            ConfigError: there is no such protocol, or this is no text for a port.
+            ConfigError: there is no such protocol, this is no text for a port, or the other arm
+                reads it.
         """
-        if why := why_out_of_range(SensorSettings, "port", port):
+        if why := self._why_not(side, port):
             raise ConfigError(f"{side.value}.port", short(port), why)
         known = next((found for found in self.ports() if found.url == port), None)
         before = self.arms[side].settings
@@ -114,6 +116,19 @@ class Sensors:
         """They are assigned rightly as they are: a person has shown it."""
         self._sides = self._seen()
         self._save_sides()
+
+    def _why_not(self, side: Side, port: str) -> str:
+        other = Side.RIGHT if side is Side.LEFT else Side.LEFT
+        if is_same_port(port, self._wanted(other).port):
+            choose = f"choose another port, or another one for the {other.value} arm first"
+            return f"the {other.value} arm reads it: press Swap, {choose}"
+        return why_out_of_range(SensorSettings, "port", port)
+
+    def _wrong_sides(self) -> tuple[str, str]:
+        """What is wrong with who is on which arm, and the remedy."""
+        if is_same_port(self._port_of(Side.LEFT), self._port_of(Side.RIGHT)):
+            return SAME_PORT, "choose another port for one of them: Setup, Sensors"
+        return find_swapped(self._sides, self._seen())
 
     def _wanted(self, side: Side) -> SensorSettings:
         """What was asked for last: the cell takes it a moment later."""

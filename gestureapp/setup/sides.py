@@ -14,6 +14,8 @@ _FILE: Final = "sides.json"
 
 SWAPPED: Final = "the sensors are swapped"
 SAME: Final = "both sensors have the same name"
+SAME_PORT: Final = "both arms read the same port"
+"""One sensor would be read as both: its arm would stop and steer at once."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -9,7 +9,7 @@ import pytest
 import serial
 
 from gestureapp.errors import SensorBusy, SensorDisconnected, SensorError, SensorNotFound
-from gestureapp.sensing.ports import DevicePort, Port, open_failure, open_port
+from gestureapp.sensing.ports import DevicePort, Port, is_same_port, open_failure, open_port
 
 posix_only = pytest.mark.skipif(sys.platform == "win32", reason="needs pseudo terminals")
 
@@ -187,3 +187,29 @@ def test_a_failure_is_told_by_its_cause(error: Exception, kind: type[SensorError
     assert words in failure.reason
     assert "COM3" in failure.reason
     assert "\n" not in failure.reason
+
+
+@pytest.mark.parametrize(
+    ("one", "other", "is_same"),
+    [
+        ("/dev/ttyUSB0", "/dev/ttyUSB0", True),
+        ("/dev/ttyUSB0", "/dev/../dev/ttyUSB0", True),
+        ("/dev/ttyUSB0", "/dev/ttyUSB1", False),
+        ("socket://10.0.0.9:5001", "SOCKET://10.0.0.9:5001/", True),
+        ("socket://localhost:5001", "socket://127.0.0.1:5001", True),
+        ("socket://10.0.0.9:5001", "socket://10.0.0.9:5002", False),
+        ("/dev/\0a", "/dev/\0b", False),
+        ("", "", False),
+        ("loop://", "loop://", False),
+    ],
+)
+@posix_only
+def test_two_texts_may_mean_one_port(one: str, other: str, is_same: bool):
+    assert is_same_port(one, other) is is_same
+    assert is_same_port(other, one) is is_same
+
+
+@posix_only
+def test_a_link_to_a_device_is_that_device(tmp_path):
+    (tmp_path / "by-id").symlink_to("/dev/ttyUSB0")
+    assert is_same_port(str(tmp_path / "by-id"), "/dev/ttyUSB0")

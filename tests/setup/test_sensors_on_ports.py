@@ -116,11 +116,36 @@ def test_silence_is_told_from_a_missing_port(bench: SetupBench):
 
 
 def test_choosing_a_port_is_remembered_and_used_at_once(bench: SetupBench):
+    left, new = bench.sensors[L].port.url, "socket://127.0.0.1:9"
+    bench.desk.choose_port(R, new, "csv")
+    assert bench.remembered == [{"right.port": new, "right.protocol": "csv", "right.name": ""}]
+    assert (bench.cell.settings.left.port, bench.cell.settings.right.port) == (left, new)
+
+
+def test_the_other_arm_s_port_is_refused_until_that_arm_has_another(bench: SetupBench):
     left, right = (bench.sensors[side].port.url for side in (L, R))
     bench.desk.choose_port(R, left, "csv")
+    bench.run(0.1)
+    assert "the left arm reads it: press Swap" in bench.picture.trouble
+    assert bench.remembered == []
+    assert bench.cell.settings.right.port == right
+    bench.desk.choose_port(L, "socket://127.0.0.1:9", "csv")
+    bench.desk.choose_port(R, left, "csv")
+    bench.run(0.1)
+    assert bench.picture.trouble == ""
     assert bench.cell.settings.right.port == left
-    assert bench.remembered == [{"right.port": left, "right.protocol": "csv", "right.name": ""}]
-    assert right not in {bench.cell.settings.left.port, bench.cell.settings.right.port}
+
+
+def test_one_port_for_both_arms_is_never_armed_with_wherever_it_comes_from(bench: SetupBench):
+    calibrate_both(bench)
+    right = bench.cell.settings.right
+    bench.cell.use_sensor(R, bench.cell.settings.left)  # as files read at the start may have it
+    bench.desk.step()
+    assert {bench.judged(side) for side in Side} == {"both arms read the same port"}
+    assert bench.card(R).act is Remedy.FIND
+    bench.cell.use_sensor(R, right)
+    bench.desk.step()
+    assert {bench.judged(side) for side in Side} == {""}
 
 
 def test_an_unknown_protocol_is_refused_in_words(bench: SetupBench):
