@@ -75,7 +75,8 @@ class SensorCardView(QFrame):
         self._body.setCurrentWidget(self._plot if is_coming else self._advice)
         enable(self._test, is_coming)
         self._advice.show_card(card)
-        say(self._kept, "\n".join(text for text in (card.calibration, card.level) if text))
+        kept = (card.calibration, card.level, card.link)
+        say(self._kept, "\n".join(text for text in kept if text))
         self._show_problem(card)
 
     def show_samples(self, store: SampleStore, now_s: float, is_alive: bool) -> None:

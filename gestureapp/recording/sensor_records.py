@@ -56,7 +56,13 @@ class LevelRecord:
 
 @dataclass(frozen=True, slots=True)
 class LinkRecord:
-    """The last link test's figures, as ``LinkTestView`` has them. ``wall_s``: when."""
+    """The last link test's figures, as ``LinkTestView`` has them, and what they were measured of.
+
+    Attributes:
+        wall_s: When.
+        port: Through which; of another one they say nothing.
+        protocol: In which; likewise.
+    """
 
     wall_s: float
     rate_hz: float
@@ -65,6 +71,8 @@ class LinkRecord:
     lowest_trip_s: float
     n_lost: int = 0
     n_bad: int = 0
+    port: str = ""
+    protocol: str = ""
 
 
 @dataclass(frozen=True, slots=True)
@@ -215,6 +223,8 @@ def _link_in(content: Mapping[str, object]) -> LinkRecord:
         lowest_trip_s=number_in(content, "lowest_trip_s"),
         n_lost=count_in(content, "n_lost"),
         n_bad=count_in(content, "n_bad"),
+        port=text_in(content, "port") if "port" in content else "",  # none in older files
+        protocol=text_in(content, "protocol") if "protocol" in content else "",
     )
 
 

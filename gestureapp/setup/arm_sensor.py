@@ -153,6 +153,8 @@ class ArmSensor:
             lowest_trip_s=view.lowest_trip_s,
             n_lost=view.n_lost,
             n_bad=view.n_bad,
+            port=self.settings.port,
+            protocol=self.settings.protocol,
         )
         return replace(self.record, link=link)
 
@@ -170,10 +172,18 @@ class ArmSensor:
             bad_bytes=health.bad_bytes,
             calibration=calibration_words(self.record, wall_s),
             level=level_words(self.record, wall_s),
+            link=link_words(self._link(), wall_s),
             problem=self.problem,
             remedy=self.remedy,
             act=self.act,
         )
+
+    def _link(self) -> LinkRecord | None:
+        """The last link test, if it was of what the sensor is read through now."""
+        link, settings = self.record.link, self.settings
+        if link is None or (link.port, link.protocol) != (settings.port, settings.protocol):
+            return None
+        return link
 
     def _follow(self, now_s: float, health: StreamHealth) -> None:
         if self._port != self.settings.port:
@@ -206,7 +216,8 @@ class ArmSensor:
         found = judge_record(self.record, wall_s, site)
         if found[0]:
             return Remedy.CALIBRATE, found
-        lowest_s = self.record.link.lowest_trip_s if self.record.link else math.nan
+        link = self._link()
+        lowest_s = math.nan if link is None else link.lowest_trip_s
         found = link_problem(lowest_s, site.trip_level_s)
         return (Remedy.TEST_LINK if found[0] else Remedy.NONE), found
 
@@ -226,6 +237,14 @@ def level_words(record: SensorRecord, wall_s: float) -> str:
         return ""
     when = day_words(level.wall_s, wall_s)
     return f"{'level' if level.is_level else 'not level'}, {level.off_deg:.1f} degrees, {when}"
+
+
+def link_words(link: LinkRecord | None, wall_s: float) -> str:
+    """The last link test; None where there was none of this port and protocol."""
+    if link is None:
+        return "link not tested"
+    carries = f"carries {link.lowest_trip_s * 1000:.0f} ms"
+    return f"link tested {day_words(link.wall_s, wall_s)}, {carries}"
 
 
 def day_words(then_s: float, now_s: float) -> str:

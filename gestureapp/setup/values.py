@@ -75,6 +75,7 @@ class SensorCard:
         bad_bytes: The newest bytes that were no frame, as a person can read them; empty when none.
         calibration: How it was calibrated and when, in words; or that it was not.
         level: The last level check, in words.
+        link: The last link test of this port and protocol, in words; or that there was none.
         problem: Why it must not be armed with: not calibrated, out of date, not level, swapped,
             link too slow for the trip level. Empty when nothing is against it.
         remedy: What to do about that.
@@ -91,6 +92,7 @@ class SensorCard:
     bad_bytes: str = ""
     calibration: str = "not calibrated"
     level: str = ""
+    link: str = ""
     problem: str = ""
     remedy: str = ""
     act: Remedy = Remedy.NONE

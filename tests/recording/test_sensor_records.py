@@ -43,7 +43,7 @@ RECORD = SensorRecord(
     2.5,
     "Good: within 3 mg.",
     LevelRecord(NOW_S + 5, True, 0.4, -3.0, replace(CALIBRATION, offset_g=(0.1, 0.0, 0.0))),
-    LinkRecord(NOW_S + 9, 99.8, 0.002, 0.031, 0.05, 3, 1),
+    LinkRecord(NOW_S + 9, 99.8, 0.002, 0.031, 0.05, 3, 1, "/dev/rfcomm0", "csv"),
 )
 PROFILE = PersonProfile(Handedness.LEFT, LeftPostures((0.0, 0.6, 0.8), (-1.0, 0.0, 0.0)), NOW_S)
 
@@ -182,6 +182,7 @@ def test_a_folder_that_cannot_be_made_is_told(tmp_path):
         ("level", {"is_level": 1}),
         ("level", []),
         ("link", {"n_lost": -1}),
+        ("link", {"port": 7}),
     ],
 )
 def test_values_that_cannot_be_are_refused_even_with_the_right_digest(tmp_path, name, value):

@@ -7,7 +7,7 @@ import pytest
 import serial
 
 from gestureapp.cell.snapshot import CellState
-from gestureapp.recording.sensor_records import SensorRecord, load_record, save_record
+from gestureapp.recording.sensor_records import LinkRecord, SensorRecord, load_record, save_record
 from gestureapp.sensing.calibration import NOMINAL
 from gestureapp.sensing.values import LinkState, Side
 from gestureapp.setup.desk import NOT_ARMED
@@ -264,9 +264,31 @@ def test_a_link_is_tested_kept_and_refused_until_the_level_is_raised(bench: Setu
     record, _ = load_record(bench.folder / "data", bench.card().sensor_id)
     assert record.link is not None
     assert record.link.lowest_trip_s == view.lowest_trip_s
+    assert (record.link.port, record.link.protocol) == (bench.card().port, "csv")
+    lowest_ms = round(view.lowest_trip_s * 1000)
+    assert bench.card().link.startswith("link tested today at ")
+    assert bench.card().link.endswith(f", carries {lowest_ms} ms")
     settings = bench.cell.settings
     bench.cell.use_settings(replace(settings, site=replace(settings.site, trip_level_s=0.15)))
     bench.desk.step()
+    assert bench.judged() == ""
+
+
+@pytest.mark.parametrize("other", [{"port": "/dev/ttyUSB9"}, {"protocol": "adxl330"}])
+def test_a_link_counts_as_untested_behind_another_port_or_in_another_protocol(
+    bench: SetupBench, other: dict[str, str]
+):
+    calibrate_both(bench)
+    assert bench.card().link == "link not tested"
+    assert bench.judged() == ""
+    arm = bench.desk.sensors.arms[L]
+    slow = LinkRecord(bench.wall_s, 99.0, 0.01, 0.2, 0.22, 0, 0, bench.card().port, "csv")
+    arm.keep(replace(arm.record, link=slow))
+    bench.desk.step()
+    assert "link carries 220 ms at best" in bench.judged()
+    arm.keep(replace(arm.record, link=replace(slow, **other)))
+    bench.desk.step()
+    assert bench.card().link == "link not tested"
     assert bench.judged() == ""
 
 

@@ -97,7 +97,8 @@ def card(side: Side, link: LinkState = LinkState.RECEIVING, **changes: object) -
         name=port.name,
         health=stream(side, link),
         calibration="calibrated 2026-11-22, within 4 mg",
-        level="level checked today 07:58, 0.4° off",
+        level="level, 0.4 degrees, today at 07:58",
+        link="link tested on 21 November 2026, carries 60 ms",
     )
     return replace(base, **changes)
 

@@ -67,6 +67,13 @@ def test_figures_of_the_stream_are_shown_with_their_units(room):
     assert shown == ["100 Hz", "6.2 ms", "34 ms", "17", "2", "87 %"]
 
 
+def test_a_card_says_what_was_checked_and_that_a_link_was_not(room):
+    checked = "level, 0.4 degrees, today at 07:58\nlink tested on 21 November 2026, carries 60 ms"
+    assert room.text("leftKept") == f"calibrated 2026-11-22, within 4 mg\n{checked}"
+    room.show(left=replace(card(Side.LEFT), level="", link="link not tested"))
+    assert room.text("leftKept") == "calibrated 2026-11-22, within 4 mg\nlink not tested"
+
+
 def test_what_is_not_known_is_a_dash(room):
     room.show(left=card(Side.LEFT, LinkState.NO_DATA))
     assert room.text("leftRate") == "\u2013"
