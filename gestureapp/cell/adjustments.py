@@ -14,8 +14,10 @@ from gestureapp.cell.inputs import (
     SettingsChosen,
     SetupInput,
 )
+from gestureapp.cell.limits import limits_of
 from gestureapp.cell.records import Json, Record, Recorder, Topic, plain
-from gestureapp.config import SensorSettings, Settings
+from gestureapp.config import RobotSettings, SensorSettings, Settings
+from gestureapp.sensing.calibration import Calibration
 from gestureapp.sensing.posture import BUILT_IN
 from gestureapp.sensing.values import Side
 
@@ -28,11 +30,15 @@ class Taken:
     """What has changed.
 
     Attributes:
+        has_settings: Of site, robot or joints.
         is_guardian_concerned: The limits or the controller's address: a guardian has them for good.
+        is_other_robot: The address.
         sensors: Which are read from elsewhere now.
     """
 
+    has_settings: bool
     is_guardian_concerned: bool
+    is_other_robot: bool
     sensors: tuple[Side, ...]
 
 
@@ -59,6 +65,8 @@ class Adjustments:
         self.hold = ""
         self._readers, self._record = readers, record
         self._sensors: dict[Side, SensorSettings] = {}
+        self._calibrations: dict[Side, Calibration] = {}
+        self._postures_judged = FIT
         self._next_settings: Settings | None = None
         self._next_postures: PosturesChosen | None = None
 
@@ -71,8 +79,7 @@ class Adjustments:
             case SensorJudged():
                 return self.fitness.judge(item.side, item.judgement)
             case CalibrationChosen():
-                self._readers[item.side].set_calibration(item.calibration)
-                self._tell({f"{item.side.value}.calibration": plain(item.calibration)}, now_s)
+                self._calibrations[item.side] = item.calibration
             case SensorChosen():
                 self._sensors[item.side] = item.settings
             case PosturesChosen():
@@ -84,6 +91,10 @@ class Adjustments:
     def take(self, now_s: float) -> Taken | None:
         """Take what waits; only while nothing may move. None when nothing did."""
         chosen, postures, sensors = self._next_settings, self._next_postures, self._sensors
+        calibrations, self._calibrations = self._calibrations, {}
+        for side, calibration in calibrations.items():
+            self._readers[side].set_calibration(calibration)
+            self._tell({f"{side.value}.calibration": plain(calibration)}, now_s)
         if chosen is None and postures is None and not sensors:
             return None
         self._next_settings, self._next_postures, self._sensors = None, None, {}
@@ -95,23 +106,35 @@ class Adjustments:
             after = replace(after, left=settings) if is_left else replace(after, right=settings)
         self.settings = after
         if postures is not None:
-            self._take_postures(postures, now_s)
+            self.postures, self._postures_judged = postures.postures, postures.judgement
+            self._tell({"left.postures": plain(postures.postures)}, now_s)
+        self._judge_postures()
         changes = _changes(before, after)
         if changes:
             self._tell(changes, now_s)
-        is_concerned = any(not n.startswith(("left.", "right.")) for n in changes)
-        return Taken(is_concerned, tuple(sensors))
+        is_other_robot = address_of(before.robot) != address_of(after.robot)
+        return Taken(
+            has_settings=any(not n.startswith(("left.", "right.")) for n in changes),
+            is_guardian_concerned=is_other_robot or limits_of(before) != limits_of(after),
+            is_other_robot=is_other_robot,
+            sensors=tuple(sensors),
+        )
 
-    def _take_postures(self, chosen: PosturesChosen, now_s: float) -> None:
-        self.postures, judgement = chosen.postures, chosen.judgement
-        overlapping = why_overlapping(chosen.postures, self.settings.site)
+    def _judge_postures(self) -> None:
+        """Anew with every change: other angles may be too wide for the same postures."""
+        judgement = self._postures_judged
+        overlapping = why_overlapping(self.postures, self.settings.site)
         if overlapping and not judgement.problem:
             judgement = Judgement(overlapping, "Setup, step Calibrate: record the postures again")
         self.fitness.postures = judgement if judgement.problem else FIT
-        self._tell({"left.postures": plain(chosen.postures)}, now_s)
 
     def _tell(self, changes: Mapping[str, Json], now_s: float) -> None:
         self._record(Record(Topic.SETTINGS, now_s, {"changes": changes}))
+
+
+def address_of(robot: RobotSettings) -> str:
+    """Of the controller: ``HOST:PORT``."""
+    return f"{robot.host}:{robot.port}"
 
 
 def with_limits_of(settings: Settings, chosen: Settings) -> Settings:

@@ -3,12 +3,14 @@
 from collections.abc import Iterable, Iterator
 
 from gestureapp.cell import events as e
+from gestureapp.cell.fitness import Judgement
 from gestureapp.cell.inputs import SensorTold
 from gestureapp.config import SiteSettings
 from gestureapp.sensing.posture import BUILT_IN, LeftPostures, PostureDetector
 from gestureapp.sensing.stream import StreamTracker
 from gestureapp.sensing.values import ArmPosture, Sample, Side, StreamHealth
 
+OTHER = Judgement("another sensor answers", "wait a moment; else Setup, step Sensors")
 POSTURE_FORGOTTEN_S = 0.5
 """A left arm not heard for this long is in no posture; the watchdog has acted long before."""
 
@@ -19,6 +21,8 @@ class Arms:
     def __init__(self, site: SiteSettings) -> None:
         self._trackers = {side: _tracker(side, site) for side in Side}
         self._detector = _detector(site, BUILT_IN)
+        self._judged = dict.fromkeys(Side, "")
+        """Who answered when setting up judged the sensor; empty for one that does not say."""
 
     def use(self, site: SiteSettings, postures: LeftPostures, renewed: Iterable[Side]) -> None:
         """Judge by these from now on, and these sensors anew. Only while nothing may move.
@@ -55,12 +59,26 @@ class Arms:
         """How a stream is."""
         return self._trackers[side].health(now_s)
 
+    def note_judged(self, side: Side, now_s: float) -> None:
+        """Setting up has judged the sensor that answers there now."""
+        self._judged[side] = self.health(side, now_s).identity
+
+    def fit_of(self, side: Side, judgement: Judgement, now_s: float) -> Judgement:
+        """The judgement on a side's sensor: none holds for another one that answers there."""
+        return OTHER if self._is_other(side, now_s) and not judgement.problem else judgement
+
     def lost(self, now_s: float) -> Iterator[e.StreamLost]:
         """The streams that are not usable now, and why."""
         for side in Side:
             health = self.health(side, now_s)
             if not health.is_ok:
                 yield e.StreamLost(now_s, side, f"{side.value} sensor: {health.reason}")
+            elif self._is_other(side, now_s):
+                yield e.StreamLost(now_s, side, f"{side.value} sensor: {OTHER.problem}")
+
+    def _is_other(self, side: Side, now_s: float) -> bool:
+        identity = self.health(side, now_s).identity
+        return bool(identity) and identity != self._judged[side]
 
     def last_left_s(self, now_s: float) -> float:
         """When the newest valid sample of the left arm came; minus infinity without one."""

@@ -7,10 +7,9 @@ without a thread; ``run`` is the thread. Nothing here waits for window, disk or 
 import queue
 import threading
 from collections.abc import Callable, Mapping
-from dataclasses import replace
 
 from gestureapp.cell import events as e
-from gestureapp.cell.adjustments import Adjustments, Taken
+from gestureapp.cell.adjustments import Adjustments, Taken, address_of
 from gestureapp.cell.arms import Arms
 from gestureapp.cell.ear import Ear, ModelInUse
 from gestureapp.cell.guardian_keeper import GuardianKeeper
@@ -21,6 +20,7 @@ from gestureapp.cell.inputs import (
     ModelChosen,
     ReaderPort,
     SampleCame,
+    SensorJudged,
     SensorTold,
     ServoAsked,
     SetupInput,
@@ -30,7 +30,13 @@ from gestureapp.cell.machine import step
 from gestureapp.cell.machine_state import MachineState, rules_of
 from gestureapp.cell.readiness import Facts, find_blockers
 from gestureapp.cell.records import Record, Recorder, Topic, fields_of
-from gestureapp.cell.robot_memory import RobotMemory, direction_of, events_of, robot_fields
+from gestureapp.cell.robot_memory import (
+    RobotMemory,
+    direction_of,
+    events_of,
+    robot_fields,
+    with_cause,
+)
 from gestureapp.cell.snapshot import Blocker, CellState, RecordingView, Snapshot
 from gestureapp.cell.stop_test import TEST_CAPS, StopTests
 from gestureapp.cell.story import Story
@@ -38,7 +44,8 @@ from gestureapp.cell.words import sentence
 from gestureapp.clock import Clock
 from gestureapp.config import Settings, SiteSettings
 from gestureapp.robot import messages as m
-from gestureapp.robot.values import Direction, StopReason
+from gestureapp.robot.leftover import KeptMoves
+from gestureapp.robot.values import StopReason
 from gestureapp.sensing.values import ArmPosture, Sample, Side
 
 TICK_S = 0.01
@@ -71,7 +78,7 @@ class Control:
         self,
         settings: Settings,
         model: ModelInUse,
-        start_guardian: Callable[[Settings], GuardianPort],
+        start_guardian: Callable[[Settings, KeptMoves], GuardianPort],
         readers: Mapping[Side, ReaderPort],
         gui_seen_s: Callable[[], float],
         record: Recorder,
@@ -85,7 +92,9 @@ class Control:
         self._inbox: queue.SimpleQueue[Input] = queue.SimpleQueue()
         self._arms = Arms(settings.site)
         self._robot = RobotMemory(settings.robot)
-        self._guardian = GuardianKeeper(lambda: start_guardian(self.adjusted.settings))
+        self._guardian = GuardianKeeper(
+            lambda kept: start_guardian(self.adjusted.settings, kept), address_of(settings.robot)
+        )
         self._story, self._stop_tests = Story(record, wall_clock), StopTests(wall_clock)
         self._judged_s = float("-inf")
         self._now_s = self._ticked_s = clock()
@@ -193,6 +202,8 @@ class Control:
         """What takes the permission takes it at once; what moves is stopped as by Disarm."""
         if self.adjusted.note(item, self._now_s):
             self._step(e.DisarmPressed(self._now_s))
+        if isinstance(item, SensorJudged):
+            self._arms.note_judged(item.side, self._now_s)
         self._take_choices()
         self._judge_again()
 
@@ -213,10 +224,13 @@ class Control:
         self._arms.use(settings.site, self.adjusted.postures, taken.sensors)
         if self.state.posture is not ArmPosture.NEITHER:
             self._step(e.LeftPosture(self._now_s, ArmPosture.NEITHER))
+        self._field, self._rules = field_of(settings), rules_of(settings)
         if taken.is_guardian_concerned:
-            self._field, self._rules = field_of(settings), rules_of(settings)
             self._robot = RobotMemory(settings.robot)
-            self._guardian.renew(self._now_s)
+            self._guardian.renew(self._now_s, address_of(settings.robot))
+        if taken.is_other_robot:
+            self._stop_tests.forget()
+        if taken.has_settings:
             self._say(e.Say("other settings are in use"))
 
     def _judge_again(self) -> None:
@@ -245,7 +259,7 @@ class Control:
         self._step(gone)
 
     def _guardian_said(self, message: m.FromGuardian) -> None:
-        self._guardian.heard()
+        self._guardian.heard(message)
         self._robot.note(message)
         self._stop_tests.guardian_said(message, self.state)
         if isinstance(message, m.StatusReport | m.PoseReport):
@@ -254,18 +268,9 @@ class Control:
             self._record(Record(Topic.COMMAND, self._now_s, fields_of(message)))
         if isinstance(message, m.Notice):
             self._say(e.Say(message.text))
+        left = self._arms.health(Side.LEFT, self._now_s)
         for event in events_of(message, self._now_s):
-            self._step(self._with_cause(event))
-
-    def _with_cause(self, event: e.Event) -> e.Event:
-        """The guardian knows only that the left sensor is silent; we know why."""
-        if isinstance(event, e.StopTaken) and event.reason is StopReason.LEFT_SILENT:
-            if stall := self._own_stall():
-                return replace(event, reason=StopReason.APPLICATION_STALLED, text=stall)
-            left = self._arms.health(Side.LEFT, self._now_s)
-            if not left.is_ok:
-                return replace(event, text=f"left sensor: {left.reason}")
-        return event
+            self._step(with_cause(event, self._own_stall(), left))
 
     def _beat(self) -> None:
         if not self._guardian.is_there:
@@ -319,7 +324,7 @@ class Control:
             case e.EndCollecting():
                 self._ear.cancel()
             case e.SendProposal():
-                direction = self._direction_of(effect.label)
+                direction = direction_of(effect.label, self.adjusted.settings.robot.yaw_deg)
                 caps = TEST_CAPS if effect.is_test else None
                 self._send(m.Propose(effect.activation_id, direction, effect.t_s, caps))
             case e.SendStop():
@@ -330,9 +335,6 @@ class Control:
                 self._send(m.Disarm())
             case e.Say():
                 self._say(effect)
-
-    def _direction_of(self, label: str) -> Direction:
-        return direction_of(label, self.adjusted.settings.robot.yaw_deg)
 
     def _say(self, said: e.Say) -> None:
         self._story.say(said, self._now_s)
@@ -353,8 +355,8 @@ class Control:
                 model_problem=self._ear.model.problem,
                 model_remedy=self._ear.model.remedy,
                 lock=self.adjusted.hold,
-                left_fit=fitness.of(Side.LEFT),
-                right_fit=fitness.of(Side.RIGHT),
+                left_fit=self._arms.fit_of(Side.LEFT, fitness.of(Side.LEFT), self._now_s),
+                right_fit=self._arms.fit_of(Side.RIGHT, fitness.of(Side.RIGHT), self._now_s),
                 postures_fit=fitness.postures,
                 is_link_open=self._robot.is_open,
                 link_text=self._robot.text,
@@ -385,7 +387,7 @@ class Control:
             posture=s.posture,
             trip_level_s=settings.site.trip_level_s,
             recognition=recognition,
-            direction=self._direction_of(label) if label is not None else None,
+            direction=direction_of(label, settings.robot.yaw_deg) if label is not None else None,
             robot=self._robot.view(self._now_s),
             events=self._story.lines,
             is_simulation=settings.is_simulation,

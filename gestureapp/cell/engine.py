@@ -33,6 +33,7 @@ from gestureapp.clock import Clock, monotonic
 from gestureapp.config import SensorSettings, Settings
 from gestureapp.errors import GuardianLost, WorkerError
 from gestureapp.robot import messages as m
+from gestureapp.robot.leftover import KeptMoves
 from gestureapp.robot.values import StopReason
 from gestureapp.sensing.calibration import Calibration
 from gestureapp.sensing.posture import LeftPostures
@@ -237,7 +238,7 @@ class Cell:
 
         return SensorReader(side, settings, on_sample, on_event, self._clock, self._reader_died)
 
-    def _start_guardian(self, settings: Settings) -> GuardianPort:
+    def _start_guardian(self, settings: Settings, kept: KeptMoves) -> GuardianPort:
         old, robot = self._link, settings.robot
         if old is not None:
             old.close(wait_s=OLD_GUARDIAN_S, is_killed=True)
@@ -247,6 +248,7 @@ class Cell:
             port=robot.port,
             limits=limits_of(settings),
             is_simulation=settings.is_simulation,
+            kept=kept,
             log_file=self._guardian_log,
             on_message=self._guardian_said,
             on_lost=lambda text: self._control.put(e.GuardianGone(self._clock(), text)),

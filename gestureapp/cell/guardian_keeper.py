@@ -5,6 +5,7 @@ from collections.abc import Callable
 from gestureapp.cell.inputs import GuardianPort
 from gestureapp.errors import GuardianLost
 from gestureapp.robot import messages as m
+from gestureapp.robot.leftover import KeptMoves
 
 RESTART_S = 0.2
 """Between two attempts to start a guardian."""
@@ -16,14 +17,16 @@ class GuardianKeeper:
     """The guardian there is, if there is one. Owned by the control thread.
 
     Args:
-        start: Starts one; raises GuardianLost.
+        start: Starts one, given what is known of the controller; raises GuardianLost.
+        address: Of the controller.
 
     Attributes:
         trouble: Why the last attempt to start one failed; empty when it did not.
     """
 
-    def __init__(self, start: Callable[[], GuardianPort]) -> None:
-        self._start = start
+    def __init__(self, start: Callable[[KeptMoves], GuardianPort], address: str) -> None:
+        self._start, self._address = start, address
+        self._kept: dict[str, KeptMoves] = {}
         self._guardian: GuardianPort | None = None
         self._tried_s = float("-inf")
         self.trouble = ""
@@ -41,7 +44,7 @@ class GuardianKeeper:
             return ""
         self._tried_s = now_s
         try:
-            self._guardian = self._start()
+            self._guardian = self._start(self._known)
         except GuardianLost as error:
             before, self.trouble = self.trouble, str(error)
             return "" if before == self.trouble else self.trouble  # told once
@@ -58,9 +61,15 @@ class GuardianKeeper:
         elif isinstance(message, m.Stop):
             self._owed_stop = message
 
-    def heard(self) -> None:
-        """It has said something."""
+    @property
+    def _known(self) -> KeptMoves:
+        return self._kept.get(self._address, KeptMoves())
+
+    def heard(self, message: m.FromGuardian) -> None:
+        """It has said something; what it has learned of the controller outlives it."""
         self._n_silent = 0
+        if isinstance(message, m.Hindrances):
+            self._kept[self._address] = self._known.after(message.refusals)
 
     def is_silent(self) -> bool:
         """Whether it has said nothing for too many of our ticks; asked once a tick."""
@@ -68,14 +77,16 @@ class GuardianKeeper:
         return self._guardian is not None and self._n_silent > SILENT_TICKS
 
     def forget(self) -> None:
-        """It is gone."""
+        """It is gone, and nobody knows what it left of a move."""
         self._guardian = None
+        self._kept[self._address] = self._known.unattended()
 
-    def renew(self, now_s: float) -> None:
-        """Let it go; another one follows, as limits come only at the start.
+    def renew(self, now_s: float, address: str) -> None:
+        """Let it go; another one follows, as limits and address come only at the start.
 
         The next start waits ``RESTART_S``: a guardian has ended 80 ms after the goodbye.
         """
         if self._guardian is not None:
             self._guardian.dismiss()
             self._guardian, self._tried_s = None, now_s
+        self._address = address

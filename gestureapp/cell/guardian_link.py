@@ -16,6 +16,7 @@ from gestureapp.clock import Clock
 from gestureapp.errors import GuardianLost
 from gestureapp.robot import messages as m
 from gestureapp.robot.gate import Limits
+from gestureapp.robot.leftover import KeptMoves
 from gestureapp.robot.values import StopReason
 from gestureapp.worker import Worker
 
@@ -40,6 +41,7 @@ class GuardianLink:
         port: Its TCP port.
         limits: For the guardian's whole life.
         is_simulation: The controller is an emulator on this machine.
+        kept: What a guardian before has learned of this controller.
         log_file: For the guardian's own log, or None.
         on_message: Gets what the guardian says, in the link's reader thread.
         on_lost: Told once, in the reader thread, when the guardian is gone unasked.
@@ -57,6 +59,7 @@ class GuardianLink:
         port: int,
         limits: Limits,
         is_simulation: bool,
+        kept: KeptMoves,
         log_file: Path | None,
         on_message: Callable[[m.FromGuardian], None],
         on_lost: Callable[[str], None],
@@ -67,7 +70,7 @@ class GuardianLink:
         self._clock = clock
         self._is_closing = False
         token = secrets.token_hex(16)
-        start = m.Start(token, host, port, limits, str(log_file or ""), is_simulation)
+        start = m.Start(token, host, port, limits, str(log_file or ""), is_simulation, kept)
         self._process = process
         try:
             self._tell_start(start)

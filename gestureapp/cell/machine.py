@@ -55,6 +55,8 @@ from gestureapp.cell.snapshot import CellState
 from gestureapp.cell.stop_test_steps import (
     arm_test_taken,
     begin_test,
+    is_setup_open,
+    leave_setup_in_test,
     left_posture_in_test,
     move_in_test,
     propose_test,
@@ -110,6 +112,8 @@ def _ticked(s: MachineState, event: Ticked) -> Step:
     if s.arming_since_s is not None and event.t_s - s.arming_since_s > ARMING_LIMIT_S:
         s = _arm_denied(s, "the guardian has not answered")
         return s, (SendDisarm(), Say(s.note))
+    if s.test and not is_setup_open(s):
+        return leave_setup_in_test(s, event.t_s)
     if s.state is CellState.NOT_READY and not s.blockers:
         return enter(s, CellState.READY, event.t_s, ""), ()
     if s.state is CellState.READY and s.blockers:

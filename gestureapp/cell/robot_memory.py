@@ -1,6 +1,7 @@
 """What the cell knows of the robot, from what the guardian tells. Pure."""
 
 from collections.abc import Iterator
+from dataclasses import replace
 
 from gestureapp.cell import events as e
 from gestureapp.cell.records import Json
@@ -8,7 +9,16 @@ from gestureapp.cell.snapshot import RobotView
 from gestureapp.config import YAWS_DEG, RobotSettings
 from gestureapp.gestures import Kind, gesture
 from gestureapp.robot import messages as m
-from gestureapp.robot.values import Direction, Pose, PoseIncrement, Position, Refusal, RobotStatus
+from gestureapp.robot.values import (
+    Direction,
+    Pose,
+    PoseIncrement,
+    Position,
+    Refusal,
+    RobotStatus,
+    StopReason,
+)
+from gestureapp.sensing.values import StreamHealth
 
 _X, _Y, _Z = range(3)
 _QUARTERS = {0: (1, 0), 90: (0, 1), 180: (-1, 0), -90: (0, -1)}
@@ -121,6 +131,21 @@ def events_of(message: m.FromGuardian, t_s: float) -> Iterator[e.Event]:
             yield e.StopDone(t_s, message.reason)
         case m.StopUnconfirmed():
             yield e.StopOpen(t_s, message.text)
+
+
+def with_cause(event: e.Event, stall: str, left: StreamHealth) -> e.Event:
+    """The guardian knows only that the left sensor is silent; we know why.
+
+    Args:
+        event: Of the guardian.
+        stall: How long we have stood still ourselves; empty when we have not.
+        left: How the left stream is.
+    """
+    if not isinstance(event, e.StopTaken) or event.reason is not StopReason.LEFT_SILENT:
+        return event
+    if stall:
+        return replace(event, reason=StopReason.APPLICATION_STALLED, text=stall)
+    return event if left.is_ok else replace(event, text=f"left sensor: {left.reason}")
 
 
 def direction_of(label: str, yaw_deg: int = 0) -> Direction:

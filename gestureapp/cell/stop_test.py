@@ -19,6 +19,10 @@ from gestureapp.robot.values import Caps, Pose, StopReason
 
 TEST_CAPS: Final = Caps(length_mm=20.0, speed_mm_s=10.0)
 """Of a stop test: two seconds to press STOP in."""
+LATE_MM: Final = 1.0
+"""Nearer to the end of the increment nobody can tell whether STOP or the end came first: the robot
+goes so far between two reads of its position."""
+LATE: Final = "STOP came at the end of the move, so nothing was measured: press it sooner"
 KEPT_READS: Final = 100
 """Positions are read every 50 ms at most: enough for a stop that takes its time."""
 
@@ -46,13 +50,21 @@ class StopTests:
         self._pressed_s: float | None = None
         self._taken_s: float | None = None
         self._has_moved = False
+        self._end_mm: tuple[float, ...] | None = None
         self._reads: deque[tuple[float, Pose]] = deque(maxlen=KEPT_READS)
+
+    def forget(self) -> None:
+        """Another robot: what was measured is of the one before."""
+        self.result = None
 
     def guardian_said(self, message: m.FromGuardian, s: MachineState) -> None:
         """Take what the guardian tells, before the machine does; in any state."""
         match message:
             case m.PoseReport():
                 self._reads.append((message.t_s, message.position.pose))
+            case m.CommandSent() if s.test:
+                i, start = message.increment, message.start.position_mm
+                self._end_mm = (start[0] + i.dx_mm, start[1] + i.dy_mm, start[2] + i.dz_mm)
             case m.StopAsked() if s.test and message.reason is StopReason.STOP_PRESSED:
                 self._taken_s = message.t_s
             case m.StopConfirmed() if s.test and self._is_measurable:
@@ -82,11 +94,16 @@ class StopTests:
 
     def _begin(self, s: MachineState) -> None:
         self._pressed_s, self._taken_s, self._has_moved = None, None, False
+        self._end_mm = None
         text = "Asking for the permission. Keep the left arm in the stop posture."
         self.result = StopTestResult("arming", s.test, text=text)
 
     def _measure(self, stood_s: float, stood: Pose) -> None:
         if self.result is None or self._pressed_s is None:
+            return
+        end_mm = self._end_mm
+        if end_mm is not None and math.dist(end_mm, stood.position_mm) < LATE_MM:
+            self.result = replace(self.result, text=LATE)
             return
         at_press = self._place_at(self._pressed_s)
         ran_on_mm = math.nan if at_press is None else math.dist(at_press, stood.position_mm)
@@ -105,7 +122,7 @@ class StopTests:
 
     def _end(self, note: str) -> None:
         assert self.result is not None
-        text = note or "ended"
+        text = LATE if self.result.text == LATE else note or "ended"
         if self.result.is_measured:
             text = f"Stood {self.result.took_s * 1000:.0f} ms after STOP was pressed"
             ran_on_mm = self.result.ran_on_mm

@@ -19,7 +19,7 @@ from gestureapp.cell.events import (
     StopTestPressed,
 )
 from gestureapp.cell.machine_state import MachineState, Step, ask_stop, enter
-from gestureapp.cell.snapshot import STOP_TEST_IGNORES, Blocker, CellState
+from gestureapp.cell.snapshot import SETUP_BLOCKER, STOP_TEST_IGNORES, Blocker, CellState
 from gestureapp.gestures import LABELS, Kind, gesture
 from gestureapp.robot.values import StopReason
 from gestureapp.sensing.values import ArmPosture
@@ -30,9 +30,24 @@ position is read more often by then."""
 ARM_LEFT = "the left arm left the stop posture"
 
 
+SETUP_CLOSED = Blocker("setup_closed", "the setup is not open", "open Setup, step Robot")
+
+
 def find_test_blocker(s: MachineState) -> Blocker | None:
-    """What stands against a stop test; it needs no model, and begins beside an open setup."""
+    """What stands against a stop test; it needs no model, and Setup to be open."""
+    if not is_setup_open(s):
+        return SETUP_CLOSED
     return next((b for b in s.blockers if b.id not in STOP_TEST_IGNORES), None)
+
+
+def is_setup_open(s: MachineState) -> bool:
+    """Setup stands against ordinary arming, and only then a stop test can be."""
+    return any(b.id == SETUP_BLOCKER for b in s.blockers)
+
+
+def leave_setup_in_test(s: MachineState, t_s: float) -> Step:
+    """Whoever leaves the setup leaves the test."""
+    return _end(s, t_s, SETUP_CLOSED.text)
 
 
 def begin_test(s: MachineState, event: StopTestPressed) -> Step:

@@ -59,7 +59,7 @@ class Guardian:
         self, start: m.Start, listener: socket.socket, write_log: Callable[[], None] = lambda: None
     ) -> None:
         self._start = start
-        self._supervisor = Supervisor(start.limits)
+        self._supervisor = Supervisor(start.limits, start.kept)
         self._selector = selectors.DefaultSelector()
         self._listener = listener
         self._listener.setblocking(False)

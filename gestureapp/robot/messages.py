@@ -9,12 +9,13 @@ import json
 import math
 import types
 import typing
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from enum import Enum
 from typing import Any
 
 from gestureapp.robot.address import is_loopback
 from gestureapp.robot.gate import Limits
+from gestureapp.robot.leftover import KeptMoves
 from gestureapp.robot.values import (
     Caps,
     Direction,
@@ -37,6 +38,7 @@ class Start:
         limits: Of everything that may move.
         log: File for the guardian's own log; empty for none.
         is_simulation: The controller is an emulator on this machine, and nothing else.
+        kept: What a guardian before has learned of this controller.
 
     Raises:
         ValueError: a simulation is given a robot's address outside this machine.
@@ -48,6 +50,7 @@ class Start:
     limits: Limits
     log: str
     is_simulation: bool = False
+    kept: KeptMoves = field(default_factory=KeptMoves)
 
     def __post_init__(self) -> None:
         if self.is_simulation and self.host and not is_loopback(self.host):

@@ -16,7 +16,7 @@ from gestureapp.robot.commands import Commands
 from gestureapp.robot.exchange import Answered, Exchange, ExchangeEvent, LinkBroken, Opened
 from gestureapp.robot.gate import GateView, Limits, Permit, arm_blocker, permit, servo_blocker
 from gestureapp.robot.heartbeat import Heartbeat
-from gestureapp.robot.leftover import Leftover
+from gestureapp.robot.leftover import KeptMoves, Leftover
 from gestureapp.robot.motion import StoppedShort
 from gestureapp.robot.nx100 import Alarms, Failure, Request
 from gestureapp.robot.outbox import Outbox
@@ -39,7 +39,7 @@ class Supervisor:
         limits: Given at the start, never changed.
     """
 
-    def __init__(self, limits: Limits) -> None:
+    def __init__(self, limits: Limits, kept: KeptMoves | None = None) -> None:
         self.limits = limits
         self._permission = Permission()
         self._out = Outbox()
@@ -49,7 +49,7 @@ class Supervisor:
         self._release = Release()
         self._polling = Polling(limits.frame)
         self._heartbeat = Heartbeat(limits.supervision_input, limits.supervision_hz)
-        self._leftover = Leftover()
+        self._leftover = Leftover(kept or KeptMoves())
         self._servo = ServoWish()
         self._beats = Beats(limits)
         self._read = Readings()

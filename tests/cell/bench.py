@@ -156,7 +156,13 @@ class Bench:
         return snapshot
 
     def _is_armed(self, snapshot: Snapshot) -> bool:
-        """Whether it is; presses Servo on and Arm as a person would, and again when refused."""
+        """Whether it is; presses Servo on and Arm as a person would, and again when refused.
+
+        Stands in for setting up, too: a sensor that says who it is only now is judged anew.
+        """
+        for side in Side:
+            if any(blocker.id == f"{side.value}_unfit" for blocker in snapshot.blockers):
+                self.cell.judge_sensor(side, "")
         if any("servo power" in blocker.text for blocker in snapshot.blockers):
             self.cell.servo_on()
         if snapshot.can_arm:

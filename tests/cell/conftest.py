@@ -25,6 +25,7 @@ from gestureapp.clock import monotonic
 from gestureapp.config import SensorSettings, Settings
 from gestureapp.errors import GuardianLost
 from gestureapp.robot import messages as m
+from gestureapp.robot.leftover import KeptMoves
 from gestureapp.robot.values import Pose, PoseIncrement, Position, Posture, StopReason
 from gestureapp.sensing.calibration import Calibration
 from gestureapp.sensing.values import ArmPosture, Connected, Sample, Side
@@ -183,6 +184,7 @@ class Desk:
         self.now_s = 1000.0
         self.guardians: list[ScriptedGuardian] = []
         self.started_with: list[Settings] = []
+        self.started_knowing: list[KeptMoves] = []
         self.records: list[Record] = []
         self.trouble = ""
         self.changes: dict[Side, Callable[[Sample], Sample | None]] = {}
@@ -262,8 +264,9 @@ class Desk:
     def of(self, topic: Topic) -> list[Record]:
         return [record for record in self.records if record.topic is topic]
 
-    def _start_guardian(self, settings: Settings) -> GuardianPort:
+    def _start_guardian(self, settings: Settings, kept: KeptMoves) -> GuardianPort:
         self.started_with.append(settings)
+        self.started_knowing.append(kept)
         if self.trouble:
             raise GuardianLost(self.trouble)
         self.guardians.append(ScriptedGuardian())

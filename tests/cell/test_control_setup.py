@@ -13,6 +13,7 @@ from gestureapp.cell.inputs import (
     PosturesChosen,
     SensorChosen,
     SensorJudged,
+    SensorTold,
     SettingsChosen,
 )
 from gestureapp.cell.records import Topic
@@ -22,7 +23,7 @@ from gestureapp.robot import messages as m
 from gestureapp.robot.values import Caps, Pose, Position, Posture, StopReason
 from gestureapp.sensing.calibration import Calibration
 from gestureapp.sensing.posture import BUILT_IN, LeftPostures
-from gestureapp.sensing.values import ArmPosture, Side
+from gestureapp.sensing.values import ArmPosture, Identity, Side
 
 S = CellState
 
@@ -30,6 +31,11 @@ S = CellState
 def changed(desk, **robot):
     settings = desk.control.adjusted.settings
     return replace(settings, robot=replace(settings.robot, **robot))
+
+
+def begin_stop_test(desk) -> None:
+    desk.press(ArmingHeld(SETUP_OPEN))
+    desk.press(e.StopTestPressed(desk.now_s, "X+"))
 
 
 def told(desk) -> list[dict]:
@@ -119,7 +125,7 @@ def test_an_open_setup_disarms_once_and_lets_a_stop_test_go_on(desk):
     desk.press(ArmingHeld(SETUP_OPEN))
     assert desk.state is S.NOT_READY
     desk.run(0.5)
-    desk.press(e.StopTestPressed(desk.now_s, "X+"))
+    begin_stop_test(desk)
     assert desk.run(2.0, S.MOVING)
     desk.press(ArmingHeld(SETUP_OPEN))
     assert desk.state is S.MOVING
@@ -131,7 +137,7 @@ def test_a_stop_test_proposes_short_and_slow_the_way_the_operator_faces(desk):
     desk.ready()
     desk.press(SettingsChosen(changed(desk, yaw_deg=90)))
     assert desk.run(4.0, S.READY)
-    desk.press(e.StopTestPressed(desk.now_s, "X+"))
+    begin_stop_test(desk)
     assert desk.run(2.0, S.MOVING)
     (proposed,) = desk.guardian.of(m.Propose)
     assert (proposed.direction.axis, proposed.direction.sign) == (1, 1)
@@ -140,7 +146,7 @@ def test_a_stop_test_proposes_short_and_slow_the_way_the_operator_faces(desk):
 
 def test_a_stop_is_measured_from_the_press_with_the_place_between_two_reads(desk):
     desk.ready()
-    desk.press(e.StopTestPressed(desk.now_s, "X+"))
+    begin_stop_test(desk)
     assert desk.run(2.0, S.MOVING)
     pressed_s = desk.now_s
 
@@ -164,7 +170,7 @@ def test_a_stop_is_measured_from_the_press_with_the_place_between_two_reads(desk
 
 def test_a_stop_for_another_reason_is_not_measured(desk):
     desk.ready()
-    desk.press(e.StopTestPressed(desk.now_s, "X+"))
+    begin_stop_test(desk)
     assert desk.run(2.0, S.MOVING)
     desk.press(e.StopPressed(desk.now_s, "the window was closed"))
     assert desk.run(1.0, S.STOPPED)
@@ -176,7 +182,7 @@ def test_a_stop_for_another_reason_is_not_measured(desk):
 
 def test_the_phases_of_a_stop_test_are_shown_in_their_order(desk):
     desk.ready()
-    desk.press(e.StopTestPressed(desk.now_s, "X+"))
+    begin_stop_test(desk)
     phases = []
     for _ in range(300):
         desk.run(0.01)
@@ -200,3 +206,55 @@ def test_the_connection_is_shown_with_banner_position_and_alarms(desk):
     desk.press_guardian(m.LinkReport(False, "connection refused"))
     desk.control.tick(desk.now_s + 0.02)
     assert desk.control.picture.robot.banner == ""
+
+
+def test_what_limits_nothing_leaves_the_guardian_where_it_is(desk):
+    desk.ready()
+    old = desk.guardian
+    site = replace(desk.control.adjusted.settings.site, stop_seen_s=0.3, calibration_days=90)
+    desk.press(SettingsChosen(replace(desk.control.adjusted.settings, site=site)))
+    assert desk.run(4.0, S.READY)
+    assert desk.guardian is old
+    assert told(desk)[-1] == {"site.stop_seen_s": 0.3, "site.calibration_days": 90}
+
+
+def test_other_angles_are_too_wide_for_the_same_postures(desk):
+    near = LeftPostures(start=(-0.95, 0.0, 0.31))
+    desk.ready()
+    desk.press(PosturesChosen(near, FIT))
+    assert desk.run(4.0, S.READY)
+    site = replace(
+        desk.control.adjusted.settings.site, posture_enter_deg=36.0, posture_leave_deg=40.0
+    )
+    desk.press(SettingsChosen(replace(desk.control.adjusted.settings, site=site)))
+    desk.run(1.0)
+    assert "postures" in {b.id for b in desk.control.state.blockers}
+
+
+def test_another_robot_has_no_stop_test_yet(desk):
+    desk.ready()
+    begin_stop_test(desk)
+    assert desk.run(2.0, S.MOVING)
+    desk.press(e.StopPressed(desk.now_s))
+    assert desk.run(1.0, S.STOPPED)
+    desk.run(0.1)
+    assert desk.control.picture.stop_test is not None
+    desk.press(SettingsChosen(changed(desk, port=81)))
+    desk.run(0.1)
+    assert desk.control.picture.stop_test is None
+
+
+@pytest.mark.parametrize("is_moving", [False, True])
+def test_another_sensor_that_answers_is_nobody_one_may_arm_with(desk, is_moving: bool):
+    if is_moving:
+        desk.moving()
+    else:
+        desk.ready()
+    desk.press(SensorTold(desk.now_s, Side.LEFT, Identity("stranger")))
+    desk.run(0.3)
+    if is_moving:
+        assert desk.run(1.0, S.STOPPED)
+    assert "left_unfit" in {b.id for b in desk.control.state.blockers}
+    desk.press(SensorJudged(Side.LEFT, FIT))
+    desk.run(0.3)
+    assert "left_unfit" not in {b.id for b in desk.control.state.blockers}

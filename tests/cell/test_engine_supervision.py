@@ -1,6 +1,7 @@
 """The running cell on a controller with a ladder that also goes on with interrupted moves."""
 
 from collections.abc import Iterator
+from dataclasses import replace
 
 import pytest
 
@@ -61,3 +62,26 @@ def test_supervision_is_shown_and_its_input_changes_while_the_cell_runs(bench):
         "22010,8,1",
     }
     assert Hold.EXTERNAL not in bench.nx100.controller.holds
+
+
+def test_another_guardian_knows_of_a_move_that_would_run_on(tmp_path):
+    with Bench(tmp_path, controller=ControllerOptions(resumes_after_hold=True)) as cell:
+        cell.move("X+")
+        cell.cell.stop()
+        cell.reach(CellState.STOPPED)
+        cell.operator.left_stop()
+        cell.operator.right_rest()
+        cell.until(lambda s: s.can_arm)
+        cell.cell.arm()
+        cell.until(lambda s: "move_kept" in blockers(s))
+        n_moves = len(cell.nx100.log.events(What.MOTION_START))
+
+        settings = cell.cell.settings
+        slower = replace(settings, robot=replace(settings.robot, speed_mm_s=90.0))
+        cell.cell.use_settings(slower)
+
+        cell.until(lambda s: not s.robot.is_connected)
+        cell.until(lambda s: s.robot.is_connected and "move_kept" in blockers(s))
+        cell.rest(0.5)
+        assert not cell.now.can_arm
+        assert len(cell.nx100.log.events(What.MOTION_START)) == n_moves

@@ -44,10 +44,15 @@ def test_a_stop_test_arms_for_itself_only_and_moves_a_moment_later():
     assert (again, effects) == (moving, ())
 
 
-@pytest.mark.parametrize("name", ["model", "setup"])
-def test_a_stop_test_needs_no_model_and_begins_beside_setup(name: str):
-    blocked = replace(STATES["ready for a test"], blockers=(Blocker(name, "text", "remedy"),))
+def test_a_stop_test_needs_no_model_but_an_open_setup():
+    no_model = Blocker("model", "text", "remedy")
+    blocked = replace(STATES["ready for a test"], blockers=(SETUP, no_model))
     assert step(blocked, EVENTS["test"], Rules())[1][0] == e.SendArm()
+    closed = replace(blocked, blockers=(no_model,))
+    assert step(closed, EVENTS["test"], Rules()) == (
+        closed,
+        (e.Say("no stop test: the setup is not open"),),
+    )
 
 
 @pytest.mark.parametrize("name", ["lock", "left_unfit", "left_stop", "robot_pose", "postures"])

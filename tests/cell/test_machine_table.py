@@ -47,7 +47,7 @@ STATES = {
     ),
 }
 
-TEST = replace(BASE, test="X+")
+TEST = replace(BASE, test="X+", blockers=(SETUP,))
 TEST_ARMED = replace(TEST, has_permission=True)
 STATES |= {
     "ready for a test": replace(BASE, state=S.NOT_READY, blockers=(SETUP,)),
@@ -67,6 +67,8 @@ STATES |= {
 EVENTS = {
     "tick, ready": e.Ticked(NOW_S, ()),
     "tick, blocked": e.Ticked(NOW_S, (BLOCKER,)),
+    "tick, in setup": e.Ticked(NOW_S, (SETUP,)),
+    "late tick, in setup": e.Ticked(NOW_S + max(DECISION_LIMIT_S, ARMING_LIMIT_S), (SETUP,)),
     "late tick": e.Ticked(NOW_S + max(DECISION_LIMIT_S, ARMING_LIMIT_S), ()),
     "left start": e.LeftPosture(NOW_S, ArmPosture.START),
     "left neither": e.LeftPosture(NOW_S, ArmPosture.NEITHER),
@@ -129,6 +131,7 @@ ACTIVATED_ROW = {
     "left neither": GIVEN_UP,
     "left stop": GIVEN_UP,
     "late tick": GIVEN_UP,
+    "late tick, in setup": GIVEN_UP,
     "not recognised": GIVEN_UP,
     "recognised": Then(S.ACTIVATED, ("SendProposal", "Say")),
     "left lost": COLLECTING_STOPPED,
@@ -167,16 +170,25 @@ TEST_MOVING_ROW = {
     "stalled": STOP,
     "faulted": Then(S.STOPPING, ("SendStop", "Say")),
     "test released": STOP,
+    "tick, ready": STOP,
+    "tick, blocked": STOP,
+    "late tick": STOP,
     "ended": TEST_ENDED,
 }
 ROWS: dict[str, dict[str, Then]] = {
     "not ready": {"tick, ready": Then(S.READY), "late tick": Then(S.READY)}
     | {"arm": Then(S.NOT_READY, ("Say",))},
-    "ready": {"tick, blocked": Then(S.NOT_READY), "arm": Then(S.READY, ("SendArm",))}
-    | {"test": Then(S.READY, BEGUN)},
+    "ready": {
+        "tick, blocked": Then(S.NOT_READY),
+        "tick, in setup": Then(S.NOT_READY),
+        "late tick, in setup": Then(S.NOT_READY),
+        "arm": Then(S.READY, ("SendArm",)),
+    },
     "arming": {
         "tick, blocked": Then(S.NOT_READY),
+        "tick, in setup": Then(S.NOT_READY),
         "late tick": Then(S.READY, ("SendDisarm", "Say")),
+        "late tick, in setup": Then(S.READY, ("SendDisarm", "Say")),
         "disarm": Then(S.NOT_READY, ("SendDisarm", "Say")),
         "arm taken": Then(S.ARMED, ("Say",)),
         "arm denied": Then(S.READY, ("Say",)),
@@ -189,6 +201,7 @@ ROWS: dict[str, dict[str, Then]] = {
         "left neither": COLLECTING_STOPPED,
         "left stop": COLLECTING_STOPPED,
         "late tick": COLLECTING_STOPPED,
+        "late tick, in setup": COLLECTING_STOPPED,
         "recognised": Then(S.ACTIVATED),
         "not recognised": Then(S.ACTIVATED),
         "accepted": Then(S.MOVING),
@@ -209,10 +222,11 @@ ROWS: dict[str, dict[str, Then]] = {
     "stopping, left arm": STOPPING_ROW | {"stop done": Then(S.ARMED, ("Say",))},
     "stopping, not permitted": STOPPING_ROW | {"stop done": Then(S.STOPPED, ("Say",))},
     "stopping, latched": STOPPING_ROW | {"stop done": Then(S.STOPPED, ("Say",))},
-    "stopped": {"arm": Then(S.STOPPED, ("SendArm",)), "test": Then(S.STOPPED, BEGUN)},
+    "stopped": {"arm": Then(S.STOPPED, ("SendArm",))},
     "stopped, blocked": {"arm": Then(S.STOPPED, ("Say",))},
     "stopped, arming": {
         "late tick": Then(S.STOPPED, ("SendDisarm", "Say")),
+        "late tick, in setup": Then(S.STOPPED, ("SendDisarm", "Say")),
         "disarm": Then(S.STOPPED, ("SendDisarm",)),
         "arm taken": Then(S.ARMED, ("Say",)),
         "arm denied": Then(S.STOPPED, ("Say",)),
@@ -224,8 +238,10 @@ ROWS: dict[str, dict[str, Then]] = {
         "test": Then(S.NOT_READY, BEGUN),
     },
     "test, arming": {
-        "tick, ready": Then(S.READY),
-        "late tick": Then(S.NOT_READY, ("SendDisarm", "Say")),
+        "tick, ready": TEST_ENDED,
+        "tick, blocked": TEST_ENDED,
+        "late tick": TEST_ENDED,
+        "late tick, in setup": TEST_ENDED,
         "left start": TEST_ENDED,
         "left neither": TEST_ENDED,
         "arm": Then(S.NOT_READY, ("Say",)),
@@ -235,7 +251,10 @@ ROWS: dict[str, dict[str, Then]] = {
         "test released": TEST_ENDED,
     },
     "test, stopped, arming": {
+        "tick, ready": Then(S.STOPPED, ("SendDisarm", "Say")),
+        "tick, blocked": Then(S.STOPPED, ("SendDisarm", "Say")),
         "late tick": Then(S.STOPPED, ("SendDisarm", "Say")),
+        "late tick, in setup": Then(S.STOPPED, ("SendDisarm", "Say")),
         "left start": Then(S.STOPPED, ("SendDisarm", "Say")),
         "left neither": Then(S.STOPPED, ("SendDisarm", "Say")),
         "disarm": Then(S.STOPPED, ("SendDisarm",)),
@@ -245,7 +264,10 @@ ROWS: dict[str, dict[str, Then]] = {
     },
     "test, armed": ARMED_ROW
     | {
-        "late tick": Then(S.ACTIVATED, ("SendProposal",)),
+        "late tick, in setup": Then(S.ACTIVATED, ("SendProposal",)),
+        "tick, ready": TEST_ENDED,
+        "tick, blocked": TEST_ENDED,
+        "late tick": TEST_ENDED,
         "left start": TEST_ENDED,
         "left neither": TEST_ENDED,
         "test released": TEST_ENDED,
@@ -257,7 +279,7 @@ ROWS: dict[str, dict[str, Then]] = {
         for event, then in TEST_MOVING_ROW.items()
     }
     | {
-        "late tick": COLLECTING_STOPPED,
+        "late tick, in setup": COLLECTING_STOPPED,
         "stop": COLLECTING_STOPPED,
         "guardian gone": Then(S.STOPPING, ("EndCollecting", "SendStop", "Say")),
         "left arm's stop taken": Then(S.STOPPING, ("EndCollecting", "Say")),
@@ -280,6 +302,8 @@ def expected(state: str, event: str) -> Then:
     before = STATES[state].state
     if event == "left arm's stop taken" and STATES[state].is_at_rest:
         return Then(before, ("Say",))  # told late: nobody is armed, nothing is left
+    if event == "arm" and STATES[state].test:
+        return Then(before, ("Say",))  # the setup, which is open, stands against it
     if common is None:
         return Then(before)
     return replace(common, state=before) if common.state is S.NOT_READY else common

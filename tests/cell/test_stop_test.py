@@ -139,3 +139,40 @@ def test_the_training_stands_against_it(bench):
     bench.rest(1.0)
     assert bench.now.stop_test is before
     assert_disarmed(bench, 0)
+
+
+def test_a_stop_that_comes_with_the_end_of_the_move_measures_nothing(bench):
+    set_up(bench)
+    bench.cell.begin_stop_test("X+")
+    bench.until(lambda s: s.state is S.MOVING)
+    bench.until(lambda _: bench.nx100.is_running())
+    bench.until(lambda _: not bench.nx100.is_running())
+    bench.cell.stop()
+
+    result = ended(bench).stop_test
+
+    assert not result.is_measured
+    assert_disarmed(bench, n_moves=1)
+
+
+def test_without_an_open_setup_there_is_no_stop_test(bench):
+    bench.cell.hold_arming("")
+    bench.arm()
+    bench.cell.disarm()
+    bench.n_before, bench.began_s = bench.moves(), time.time()
+    bench.until(lambda s: s.can_arm)
+    bench.cell.begin_stop_test("X+")
+    bench.rest(1.5)
+    assert bench.moves() == bench.n_before
+
+
+def test_leaving_the_setup_ends_the_test(bench):
+    set_up(bench)
+    bench.cell.begin_stop_test("X+")
+    bench.until(lambda s: s.state is S.MOVING)
+    bench.cell.hold_arming("")
+
+    assert "setup is not open" in ended(bench).stop_test.text
+    assert_at_rest = bench.until(lambda s: s.state is S.STOPPED)
+    assert assert_at_rest.state is S.STOPPED
+    bench.cell.hold_arming("")
