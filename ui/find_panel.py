@@ -1,12 +1,13 @@
 """Looking for sensors: what sends on which port, and whose arm it is to be."""
 
+from collections.abc import Sequence
 from functools import partial
 
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import QFrame, QGridLayout, QHBoxLayout, QPushButton, QVBoxLayout, QWidget
 
 from gestureapp.sensing.values import Side
-from gestureapp.setup.values import FindingView, FoundSensor
+from gestureapp.setup.values import FindingView, FoundSensor, SensorCard
 from ui.labels import BigText, plain
 from ui.operate_page import framed
 from ui.setup_parts import enable, push
@@ -55,12 +56,12 @@ class FindPanel(QFrame):
         layout.addLayout(foot)
         self._close.clicked.connect(self.closed)
 
-    def show_finding(self, finding: FindingView, in_use: dict[str, Side]) -> None:
+    def show_finding(self, finding: FindingView, cards: Sequence[SensorCard]) -> None:
         """Show another moment.
 
         Args:
             finding: What came of it so far.
-            in_use: Whose sensor is on which port now.
+            cards: Both arms': what is in use already.
         """
         self._sentence.show_text(finding.sentence)
         self._close.setText("Stop looking" if finding.is_on else "Back")
@@ -69,7 +70,7 @@ class FindPanel(QFrame):
         self._more.setText(f"and {n_more} more" if n_more > 0 else "")
         for number, row in enumerate(self._rows):
             found = finding.found[number] if number < len(finding.found) else None
-            row.show_found(found, in_use)
+            row.show_found(found, cards)
 
 
 class _FoundRow:
@@ -86,22 +87,23 @@ class _FoundRow:
             button.setMinimumWidth(130)
             button.clicked.connect(partial(self._take, side))
             self.buttons[side] = button
-        self.show_found(None, {})
+        self.show_found(None, ())
 
-    def show_found(self, found: FoundSensor | None, in_use: dict[str, Side]) -> None:
+    def show_found(self, found: FoundSensor | None, cards: Sequence[SensorCard]) -> None:
         """Show another sensor; None shows nothing."""
         self._found = found
         self.text.setVisible(found is not None)
-        owner = None if found is None else in_use.get(found.port.url)
         if found is not None and found.text != self.text.text():
             self.text.setText(found.text)
-        for side, button in self.buttons.items():
+        for button in self.buttons.values():
             button.setVisible(found is not None)
-            if found is None:
-                continue
-            is_own = owner is side
-            enable(button, bool(found.protocol) and not is_own)
-            word = f"is the {side.value} arm's" if is_own else f"use for {side.value} arm"
+        if found is None:
+            return
+        is_in_use = any(card.port == found.port.url for card in cards)
+        for card in cards:
+            button, is_own = self.buttons[card.side], card.port == found.port.url
+            enable(button, bool(found.protocol) and not is_in_use)
+            word = f"is the {card.worn} arm's" if is_own else f"use for {card.worn} arm"
             if word != button.text():
                 button.setText(word)
                 button.setAccessibleName(f"{found.port.name}: {word}")

@@ -46,10 +46,10 @@ class LinkTestPanel(QFrame):
         self._again.clicked.connect(lambda: self.again.emit(self._side))
         self._close.clicked.connect(self.closed)
 
-    def show_test(self, test: LinkTestView) -> None:
-        """Show another moment."""
+    def show_test(self, test: LinkTestView, worn: str) -> None:
+        """Show another moment of the sensor that is worn on this arm."""
         self._side = test.side or self._side
-        say(self._title, f"Link test: {self._side.value} arm's sensor")
+        say(self._title, f"Link test: {worn} arm's sensor")
         self._bar.setRange(0, max(1, round(10 * test.total_s)))
         self._bar.setValue(round(10 * min(test.elapsed_s, test.total_s)))
         self._bar.setFormat(f"{test.elapsed_s:.0f} of {test.total_s:.0f} s")

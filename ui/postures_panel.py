@@ -1,4 +1,4 @@
-"""The left arm's two postures of a person: recorded one after the other, with what lies between."""
+"""A person's stop and start posture: recorded one after the other, with what lies between."""
 
 from PySide6.QtCore import QRectF, QSize, Qt
 from PySide6.QtGui import QColor, QFont, QPainter, QPaintEvent, QPen
@@ -60,7 +60,8 @@ class PosturesPanel(QFrame):
             self._begin.setText(word)
             self._begin.setAccessibleName(word)
         enable(self._begin, view.is_on or (bool(view.person) and is_left_alive))
-        enable(self._forget, not view.is_on and bool(view.person) and view.wall_s > 0)
+        is_to_forget = view.wall_s > 0 or bool(view.problem)
+        enable(self._forget, not view.is_on and bool(view.person) and is_to_forget)
 
     def _begin_or_end(self) -> None:
         if self._is_on:

@@ -13,7 +13,7 @@ from ui.operate_page import framed
 from ui.pages import scrolled
 from ui.port_chooser import PortChooser
 from ui.setup_parts import Figure, OutcomeLine, enable, push, say
-from ui.setup_words import ARM_WORK, FIGURES, figure_texts, link_level, link_word
+from ui.setup_words import FIGURES, card_title, figure_texts, link_level, link_word
 from ui.theme import LARGE_PX, SMALL_PX, TEXT_PX, sized
 
 _STATE_PX = 26
@@ -38,6 +38,7 @@ class SensorCardView(QFrame):
         self._act = Remedy.NONE
         self.setObjectName(f"{name}SensorCard")
         framed(self)
+        self._title = plain(f"{name}SensorTitle", LARGE_PX + 2, is_wrapped=False)
         self._mark = Mark(_STATE_PX)
         self._state = plain(f"{name}SensorState", _STATE_PX, is_wrapped=False)
         sized(self._state, _STATE_PX, is_bold=True)
@@ -57,7 +58,7 @@ class SensorCardView(QFrame):
         self._act_button = push(f"{name}Act", "")
         self._tested = OutcomeLine(f"{name}LinkTested", TEXT_PX)
         self._test = push(f"{name}TestLink", "Test link", f"Test the {name} arm's link for 30 s")
-        self._lay_out(side)
+        self._lay_out()
         self._ports.chosen.connect(self.port_chosen)
         self._act_button.clicked.connect(lambda: self.act_wanted.emit(self._act))
         self._test.clicked.connect(lambda: self.act_wanted.emit(Remedy.TEST_LINK))
@@ -65,6 +66,7 @@ class SensorCardView(QFrame):
     def show_card(self, card: SensorCard, ports: tuple[PortChoice, ...]) -> None:
         """Show another moment of this sensor."""
         self._mark.show_level(link_level(card))
+        say(self._title, card_title(card))
         say(self._state, link_word(card))
         say(self._identity, card.name or card.sensor_id)
         self._identity.setToolTip(self._identity.text())
@@ -106,13 +108,11 @@ class SensorCardView(QFrame):
             spoken = f"{card.act.value}: {self._name} arm's sensor"
             self._act_button.setAccessibleName(spoken)
 
-    def _lay_out(self, side: Side) -> None:
-        title = plain(f"{self._name}SensorTitle", LARGE_PX + 2, is_wrapped=False)
-        title.setText(f"{self._name.capitalize()} arm: {ARM_WORK[side]}")
-        sized(title, LARGE_PX + 2, is_bold=True)
+    def _lay_out(self) -> None:
+        sized(self._title, LARGE_PX + 2, is_bold=True)
         head = QHBoxLayout()
         head.setSpacing(12)
-        head.addWidget(title)
+        head.addWidget(self._title)
         head.addWidget(self._identity, 1)
         state = QHBoxLayout()
         state.setSpacing(10)

@@ -1,4 +1,4 @@
-"""Calibrate: six positions of each sensor, the level check, and the left arm's postures."""
+"""Calibrate: six positions of each sensor, the level check, and the stop and start posture."""
 
 from collections.abc import Callable
 
@@ -30,7 +30,7 @@ class CalibrateStep(QWidget):
             side: TaskButton(f"calibrate_{side.value}", f"{side.value.capitalize()} arm's sensor")
             for side in Side
         }
-        self._postures_button = TaskButton("calibratePostures", "Left arm's postures")
+        self._postures_button = TaskButton("calibratePostures", "Stop and start posture")
         self._six = SixPositionsPanel(setup)
         self._postures = PosturesPanel(setup)
         self._stack = PageStack("calibratePanels")
@@ -44,6 +44,7 @@ class CalibrateStep(QWidget):
         self._snapshot = setup
         self._follow(setup)
         for card in (setup.left, setup.right):
+            self._sides[card.side].show_title(f"{card.worn.capitalize()} arm's sensor")
             self._sides[card.side].show_state(*sensor_task(card, setup.calibration))
         postures = setup.postures
         self._postures_button.show_state(
@@ -61,7 +62,7 @@ class CalibrateStep(QWidget):
         self._stack.setCurrentWidget(self._six)
 
     def choose_postures(self) -> None:
-        """Show the left arm's postures."""
+        """Show the person's postures."""
         self._postures_button.setChecked(True)
         self._stack.setCurrentWidget(self._postures)
 

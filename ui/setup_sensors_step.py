@@ -68,10 +68,10 @@ class SetupSensorsStep(QWidget):
         if panel is self._shake:
             self._shake.show_shake(setup.shake)
         elif panel is self._find:
-            in_use = {card.port: card.side for card in (setup.left, setup.right)}
-            self._find.show_finding(setup.finding, in_use)
+            self._find.show_finding(setup.finding, (setup.left, setup.right))
         elif panel is self._link:
-            self._link.show_test(setup.link_test)
+            card = setup.right if setup.link_test.side is Side.RIGHT else setup.left
+            self._link.show_test(setup.link_test, card.worn)
         else:
             self._show_cards(setup, cell)
 

@@ -55,7 +55,7 @@ def _sensors_state(setup: SetupSnapshot) -> StepState:
 def _calibrate_state(setup: SetupSnapshot) -> StepState:
     cards = (setup.left, setup.right)
     n_fine = sum(not card.problem for card in cards)
-    problem = next((f"{card.side.value}: {card.problem}" for card in cards if card.problem), "")
+    problem = next((f"{card.worn}: {card.problem}" for card in cards if card.problem), "")
     if not problem:
         problem = posture_problem(setup.postures)
     return StepState(
@@ -90,9 +90,9 @@ def _people_state(setup: SetupSnapshot, cell: Snapshot) -> StepState:
 
 
 def posture_problem(postures: PosturesView) -> str:
-    """What is wrong with the left arm's postures; empty when nothing is."""
+    """What is wrong with the person's postures; empty when nothing is."""
     if math.isnan(postures.margin_deg) or postures.margin_deg >= postures.least_margin_deg:
-        return ""
+        return postures.problem
     return (
         f"postures too close: margin {postures.margin_deg:.0f}\u00b0, "
         f"{postures.least_margin_deg:.0f}\u00b0 needed"
@@ -109,6 +109,11 @@ def link_word(card: SensorCard) -> str:
     if card.health.link is LinkState.RECEIVING and not card.health.is_ok:
         return "receiving, not as it should"
     return card.health.link.value
+
+
+def card_title(card: SensorCard) -> str:
+    """What a sensor is for and where it is worn."""
+    return f"{card.worn.capitalize()} arm: {ARM_WORK[card.side]}"
 
 
 FIGURES = (
@@ -204,12 +209,12 @@ def calibrate_sentence(card: SensorCard, view: CalibrationView, level: LevelView
     if level.outcome.check is Check.RUNNING:
         return "Leave the sensor level and still."
     if not card.health.is_alive:
-        return f"No data from the {card.side.value} arm's sensor: see Sensors first."
+        return f"No data from the {card.worn} arm's sensor: see Sensors first."
     if view.outcome.check is not Check.NOT_RUN:
         return view.verdict or view.sentence
     if card.problem:
         return f"{card.problem[0].upper()}{card.problem[1:]}."
-    return f"The {card.side.value} arm's sensor is calibrated."
+    return f"The {card.worn} arm's sensor is calibrated."
 
 
 def level_words(level: LevelView) -> Outcome:
@@ -241,8 +246,10 @@ def postures_sentence(view: PosturesView, is_left_alive: bool) -> str:
         return view.sentence
     if not view.person:
         return "Choose a person first: see People."
+    if view.problem and not view.wall_s and view.outcome.check is Check.NOT_RUN:
+        return view.sentence
     if not is_left_alive:
-        return "No data from the left arm's sensor: see Sensors first."
+        return f"No data from the {view.arm} arm's sensor: see Sensors first."
     if view.sentence:
         return view.sentence
     if view.wall_s:
@@ -252,6 +259,8 @@ def postures_sentence(view: PosturesView, is_left_alive: bool) -> str:
 
 def postures_kept(view: PosturesView) -> str:
     """When the postures that are used were recorded."""
+    if view.problem and not view.wall_s:
+        return "Nothing can be armed with them."
     if not view.wall_s:
         return "The built-in postures are used."
     return f"Recorded {datetime.fromtimestamp(view.wall_s):%Y-%m-%d %H:%M}."

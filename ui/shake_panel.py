@@ -3,10 +3,12 @@
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import QFrame, QGridLayout, QHBoxLayout, QProgressBar, QVBoxLayout, QWidget
 
+from gestureapp.sensing.values import Side
 from gestureapp.setup.values import ShakeView
 from ui.labels import BigText, plain
 from ui.operate_page import framed
 from ui.setup_parts import push
+from ui.setup_words import ARM_WORK
 from ui.theme import LARGE_PX, sized
 
 _BAR_PX = 56
@@ -37,9 +39,9 @@ class ShakePanel(QFrame):
         grid.setHorizontalSpacing(16)
         grid.setVerticalSpacing(12)
         grid.setColumnStretch(1, 1)
-        for row, (bar, name) in enumerate(zip(self._bars, ("left", "right"), strict=True)):
-            caption = plain(f"{name}ShakeCaption", 28, is_wrapped=False)
-            caption.setText(f"{name} sensor now")
+        for row, (bar, side) in enumerate(zip(self._bars, Side, strict=True)):
+            caption = plain(f"{side.value}ShakeCaption", 28, is_wrapped=False)
+            caption.setText(f"{ARM_WORK[side]} now")
             sized(caption, 28, is_bold=True)
             grid.addWidget(caption, row, 0)
             grid.addWidget(bar, row, 1)

@@ -79,8 +79,8 @@ class SixPositionsPanel(QFrame):
         word = "Stop calibrating" if self._is_on else "Calibrate"
         if word != self._begin.text():
             self._begin.setText(word)
-        self._begin.setAccessibleName(f"{word}: {self.side.value} arm's sensor")
-        self._check.setAccessibleName(f"Check level: {self.side.value} arm's sensor")
+        self._begin.setAccessibleName(f"{word}: {card.worn} arm's sensor")
+        self._check.setAccessibleName(f"Check level: {card.worn} arm's sensor")
 
     def _begin_or_end(self) -> None:
         if self._is_on:

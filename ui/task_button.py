@@ -35,6 +35,12 @@ class TaskButton(QAbstractButton):
         """How the task stands, as shown."""
         return self._state
 
+    def show_title(self, title: str) -> None:
+        """Call the task otherwise."""
+        if title != self.text():
+            self.setText(title)
+            self.setAccessibleName(f"{title}: {self._state}" if self._state else title)
+
     def show_state(self, level: Level, state: str) -> None:
         """Show how the task stands."""
         if (level, state) == (self._level, self._state):

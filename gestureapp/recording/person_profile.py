@@ -63,8 +63,9 @@ def save_profile(data: Path, person: str, profile: PersonProfile) -> None:
 def load_profile(data: Path, person: str) -> tuple[PersonProfile, str]:
     """A person's profile, and what is wrong with the file; the built-in one where none is.
 
-    A file that cannot be used is one line for a person, and blocks arming where that line is
-    treated as a problem: whoever recorded postures does not expect the built-in ones.
+    A file that cannot be used is one line for a person, the cause without its remedy, and blocks
+    arming where that line is treated as a problem: whoever recorded postures does not expect the
+    built-in ones.
 
     Raises:
         RecordingError: the name cannot be used.
@@ -74,7 +75,12 @@ def load_profile(data: Path, person: str) -> tuple[PersonProfile, str]:
         content = read_kept(path, _KIND, _SCHEMA)
         return (PersonProfile() if content is None else _profile_in(content)), ""
     except ValueError as error:
-        return PersonProfile(), f"{path}: {error}; record the postures anew, note the handedness"
+        return PersonProfile(), f"{person}'s {PROFILE_FILE} {_as_verb(error)}"
+
+
+def _as_verb(error: ValueError) -> str:
+    text = str(error)
+    return text if text.startswith(("is ", "cannot ")) else f"is damaged: {text}"
 
 
 def _profile_in(content: Mapping[str, object]) -> PersonProfile:

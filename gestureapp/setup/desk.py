@@ -4,6 +4,7 @@ No thread of its own, and its clocks are passed in: tests hold the time in their
 """
 
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 from typing import Final
 
@@ -13,15 +14,15 @@ from gestureapp.clock import Clock
 from gestureapp.errors import GestureAppError
 from gestureapp.recording.person_profile import Handedness
 from gestureapp.sensing.protocols import protocols
-from gestureapp.sensing.values import Side, StreamHealth
-from gestureapp.setup.finding import Finder
+from gestureapp.sensing.values import LinkState, Side, StreamHealth
+from gestureapp.setup.finding import Finder, found_in_use
 from gestureapp.setup.measuring import Measuring
-from gestureapp.setup.people_desk import PeopleDesk, PeopleSource
+from gestureapp.setup.people_desk import PeopleDesk, PeopleSource, start_stop_arm
 from gestureapp.setup.port_watch import PortWatch
 from gestureapp.setup.robot_desk import RobotDesk
 from gestureapp.setup.sensors import Remember, Sensors
 from gestureapp.setup.snapshot import SetupSnapshot
-from gestureapp.setup.values import Check, PosturesView
+from gestureapp.setup.values import Check, FoundSensor, PortChoice, PosturesView, SensorCard
 
 AT_REST: Final = (CellState.NOT_READY, CellState.READY, CellState.STOPPED)
 """Nothing may move: only then sensors change sides."""
@@ -123,7 +124,7 @@ class Desk:
     def find_sensors(self) -> None:
         """Try every port that the cell does not read."""
         self.measuring.end()
-        self._finder.start(self.sensors.free_ports())
+        self._finder.start(self.sensors.free_ports(), self._in_use())
 
     def stop_finding(self) -> None:
         """End that."""
@@ -134,7 +135,7 @@ class Desk:
         if self._is_armed():
             self.measuring.refuse_shake(NOT_ARMED)
         else:
-            self.measuring.begin_shake(self._clock())
+            self.measuring.begin_shake(self._clock(), self._start_stop_arm())
 
     def swap_sensors(self) -> None:
         """The left sensor is the right one from now on."""
@@ -157,7 +158,7 @@ class Desk:
 
     def begin_postures(self) -> None:
         """Record the chosen person's postures."""
-        self.measuring.begin_postures(self.people.person)
+        self.measuring.begin_postures(self.people.person, self._start_stop_arm())
 
     def forget_postures(self) -> None:
         """Use the built-in postures."""
@@ -210,7 +211,31 @@ class Desk:
         """What is being recorded, or what came of it as long as it is the same person."""
         recorded, person = self.measuring.postures, self.people.person
         is_newest = recorded.outcome.check is not Check.NOT_RUN and recorded.person == person
-        return recorded if is_newest else self.people.postures_view()
+        if not is_newest:
+            return self.people.postures_view()
+        if recorded.is_on:
+            return recorded
+        kept = self.people.postures_view()
+        return replace(recorded, problem=kept.problem, remedy=kept.remedy)
+
+    def _in_use(self) -> tuple[FoundSensor, ...]:
+        """What sends already, from the cards: its port is not free to be tried."""
+        ports = {port.url: port for port in self.sensors.ports()}
+        cards = (self.picture.left, self.picture.right)
+        return tuple(
+            found_in_use(card, ports.get(card.port) or PortChoice(card.port, card.port))
+            for card in cards
+            if card.port and card.health.link is LinkState.RECEIVING
+        )
+
+    def _start_stop_arm(self) -> str:
+        return start_stop_arm(self.people.handedness)
+
+    def _card(self, side: Side, health: StreamHealth, wall_s: float) -> SensorCard:
+        card = self.sensors.card(side, health, wall_s)
+        if self.people.handedness is Handedness.RIGHT:
+            return card
+        return replace(card, arm="right" if side is Side.LEFT else "left")
 
     def _draw(self, picture: Snapshot, now_s: float) -> SetupSnapshot:
         health, wall_s = _health(picture), self._wall_clock()
@@ -219,8 +244,8 @@ class Desk:
         troubles = (self._trouble, self.sensors.trouble, self._robot.trouble)
         return SetupSnapshot(
             t_s=now_s,
-            left=self.sensors.card(Side.LEFT, health[Side.LEFT], wall_s),
-            right=self.sensors.card(Side.RIGHT, health[Side.RIGHT], wall_s),
+            left=self._card(Side.LEFT, health[Side.LEFT], wall_s),
+            right=self._card(Side.RIGHT, health[Side.RIGHT], wall_s),
             robot=robot,
             ports=self.sensors.ports(),
             finding=self._finder.view,

@@ -89,10 +89,10 @@ class Measuring:
 
     # Beginning and ending.
 
-    def begin_shake(self, now_s: float) -> None:
-        """Ask for the left sensor to be shaken."""
+    def begin_shake(self, now_s: float, arm: str = "left") -> None:
+        """Ask for the sensor that starts and stops to be shaken, which is worn on this arm."""
         self.end()
-        self._shake = Shake(now_s)
+        self._shake = Shake(now_s, arm)
         self.shake = self._shake.view
 
     def refuse_shake(self, why: str) -> None:
@@ -147,14 +147,14 @@ class Measuring:
         self._level, self._who = LevelCheck(side, arm.record), arm.known.id
         self.level = self._level.view
 
-    def begin_postures(self, person: str) -> None:
-        """Record the stop posture, then the start posture, of the chosen person."""
+    def begin_postures(self, person: str, arm: str = "left") -> None:
+        """Record stop, then start posture of the chosen person, who wears the sensor there."""
         self.end()
         if not person:
             text = "Nobody is chosen: choose a person first."
             self.postures = PosturesView(sentence=text, outcome=Outcome(Check.FAILED, text))
             return
-        self._postures = PostureRecorder(person, self._cell.settings.site)
+        self._postures = PostureRecorder(person, self._cell.settings.site, arm)
         self._who = self._arms[Side.LEFT].known.id
         self.postures = self._postures.view
 
@@ -268,9 +268,14 @@ class Measuring:
 
     def _keep_postures(self, recorder: PostureRecorder, wall_s: float) -> None:
         person = recorder.view.person
-        profile: PersonProfile = load_profile(self._data, person)[0]
+        profile: PersonProfile
+        profile, trouble = load_profile(self._data, person)
         kept = replace(profile, postures=recorder.postures, recorded_wall_s=wall_s)
         save_profile(self._data, person, kept)
+        if trouble:
+            self._cell.tell(
+                f"{trouble}: set aside; the postures are new, note the handedness again"
+            )
 
     @staticmethod
     def _kept(outcome: Outcome, keep: Callable[[], None]) -> Outcome:

@@ -4,6 +4,7 @@ import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import Final
 
 from gestureapp.cell.controls import CellControls
 from gestureapp.cell.ear import describe_model
@@ -32,6 +33,10 @@ from gestureapp.setup.site_values import PersonRow
 from gestureapp.setup.values import PosturesView
 
 _BUILT_IN_WORDS = "the built-in ones"
+DAMAGED_REMEDY: Final = (
+    "record the postures anew or press Use the built-in ones: Setup, step Calibrate"
+)
+_AND_THE_HAND: Final = "then note the handedness again"
 
 
 @dataclass(frozen=True, slots=True)
@@ -70,6 +75,11 @@ class PeopleDesk:
         self._told: tuple[LeftPostures, str, str] | None = None
         self._chosen: tuple[PersonProfile, str] = PersonProfile(), ""
 
+    @property
+    def handedness(self) -> Handedness:
+        """Of whoever is chosen."""
+        return self._chosen[0].handedness
+
     def follow(self, person: str) -> None:
         """Whose arms the cell's model is for; the postures are then theirs, too."""
         if person != self.person or self._told is None:
@@ -84,7 +94,7 @@ class PeopleDesk:
         postures = profile.postures or LeftPostures()
         problem, remedy = posture_problem(postures, site)
         if trouble:
-            problem, _, remedy = trouble.rpartition("; ")
+            problem, remedy = trouble, DAMAGED_REMEDY
         chosen = (postures, problem, remedy)
         if chosen != self._told:
             self._told = chosen
@@ -93,27 +103,63 @@ class PeopleDesk:
     def postures_view(self) -> PosturesView:
         """The chosen person's postures, while none are being recorded."""
         profile, trouble = self._chosen
+        _, problem, remedy = self._told or (LeftPostures(), "", "")
+        if trouble:
+            return PosturesView(
+                person=self.person,
+                sentence=f"{trouble}: {remedy}, {_AND_THE_HAND}.",
+                least_margin_deg=LEAST_MARGIN_DEG,
+                problem=problem,
+                remedy=remedy,
+            )
         postures = profile.postures or LeftPostures()
         own = profile.postures is not None
         whose = f"{self.person}'s own" if own else _BUILT_IN_WORDS
         return PosturesView(
             person=self.person,
-            sentence=trouble or f"In use: {whose}.",
+            sentence=f"In use: {whose}.",
             is_stop_done=own,
             is_start_done=own,
             between_deg=between_deg(postures.stop, postures.start),
             margin_deg=margin_deg(postures, self._cell.settings.site),
             least_margin_deg=LEAST_MARGIN_DEG,
             wall_s=profile.recorded_wall_s if own else 0.0,
+            arm=start_stop_arm(profile.handedness),
+            problem=problem,
+            remedy=remedy,
         )
 
     def forget_postures(self) -> str:
         """Use the built-in postures for the chosen person. Returns why not, or empty."""
-        return self._change(self.person, lambda old: replace(old, postures=None))
+        person = self.person
+        if not person:
+            return "nobody is chosen: choose a person first"
+        old, trouble = self._profile(person)
+        if wrong := self._keep(person, replace(old, postures=None)):
+            return wrong
+        if trouble:
+            self._cell.tell(f"{trouble}: set aside; {person} uses the built-in postures")
+        return ""
 
     def set_handedness(self, person: str, handedness: Handedness) -> str:
-        """Note which hand shows the gestures. Returns why not, or empty."""
-        return self._change(person, lambda old: replace(old, handedness=handedness))
+        """Note which hand shows the gestures. Returns why not, or empty.
+
+        A damaged profile is not replaced by this: whoever recorded postures would go on with the
+        built-in ones without having chosen them.
+        """
+        if not person:
+            return "nobody is chosen: choose a person first"
+        old, trouble = self._profile(person)
+        if trouble:
+            wrong = _hand_refused(trouble)
+            self._cell.tell(f"handedness not noted: {wrong}")
+            return wrong
+        return self._keep(person, replace(old, handedness=handedness))
+
+    def why_not_hand(self, name: str) -> str:
+        """Why this person's handedness cannot be noted, as far as is known without looking."""
+        trouble = next((row.trouble for row in self.rows if row.name == name), "")
+        return _hand_refused(trouble) if trouble else ""
 
     def why_not(self, name: str) -> str:
         """Why nobody can be called so; empty when somebody can."""
@@ -163,6 +209,7 @@ class PeopleDesk:
             n_takes=self._n_takes(name),
             model=self._model_words(name),
             postures=trouble or words,
+            trouble=trouble,
         )
 
     def _n_takes(self, name: str) -> int:
@@ -202,16 +249,23 @@ class PeopleDesk:
         except RecordingError as error:
             return PersonProfile(), str(error)
 
-    def _change(self, person: str, change: Callable[[PersonProfile], PersonProfile]) -> str:
-        if not person:
-            return "nobody is chosen: choose a person first"
-        old, trouble = self._profile(person)
-        if trouble:
-            old = PersonProfile()
+    def _keep(self, person: str, profile: PersonProfile) -> str:
         try:
-            save_profile(self._data, person, change(old))
+            save_profile(self._data, person, profile)
         except RecordingError as error:
             return str(error)
         if person == self.person:
             self.use_postures()
         return ""
+
+
+def start_stop_arm(handedness: Handedness) -> str:
+    """On which arm the sensor that starts and stops is worn, in a word; the other shows gestures.
+
+    In the code, the files and the settings that sensor is the left one, whoever wears it.
+    """
+    return "left" if handedness is Handedness.RIGHT else "right"
+
+
+def _hand_refused(trouble: str) -> str:
+    return f"{trouble}: {DAMAGED_REMEDY}, {_AND_THE_HAND}"

@@ -1,4 +1,4 @@
-"""A person's own stop and start posture of the left arm, and whether they lie far apart. Pure."""
+"""A person's own stop and start posture, and whether they lie far apart. Pure."""
 
 import math
 from dataclasses import replace
@@ -31,7 +31,6 @@ READING_S: Final = 5.0
 GIVE_UP_S: Final = 30.0
 """For each posture; then it ends by itself."""
 
-_STOP: Final = "Take the stop posture with the left arm and hold it still."
 _START: Final = "Stop posture recorded. Now take the start posture and hold it still."
 _AGAIN: Final = "record the postures anew: Setup, Calibrate, Postures"
 
@@ -42,10 +41,13 @@ class PostureRecorder:
     Args:
         person: Whose they are.
         site: Says how far a posture may be left.
+        arm: Which one starts and stops: ``left`` or ``right``.
     """
 
-    def __init__(self, person: str, site: SiteSettings) -> None:
+    def __init__(self, person: str, site: SiteSettings, arm: str = "left") -> None:
         self._site = site
+        ask = f"Take the stop posture with the {arm} arm and hold it still."
+        self._ask = ask
         self._stillness = Stillness(HOLD_S, STILL_WITHIN_G, may_sway=True)
         self._began_s = math.nan
         self._stop: Vector | None = None
@@ -54,9 +56,10 @@ class PostureRecorder:
         self._view = PosturesView(
             person=person,
             is_on=True,
-            sentence=_STOP,
+            sentence=ask,
             least_margin_deg=LEAST_MARGIN_DEG,
-            outcome=Outcome(Check.RUNNING, _STOP),
+            outcome=Outcome(Check.RUNNING, ask),
+            arm=arm,
         )
 
     @property
@@ -129,7 +132,8 @@ class PostureRecorder:
 
     def _why_nothing(self) -> str:
         if self._stillness.is_silent:
-            return "No samples come from the left sensor: switch it on, or see Sensors."
+            arm = self._view.arm
+            return f"No samples come from the {arm} arm: switch the sensor on, or see Sensors."
         which = "stop" if self._stop is None else "start"
         told = self._told or f"The {which} posture was not held still for {HOLD_S:g} s."
         return f"{told} Nothing is kept; begin anew."
@@ -139,7 +143,7 @@ class PostureRecorder:
         self._view = replace(self._view, is_on=False, sentence=text, outcome=outcome)
 
     def _show(self) -> None:
-        asked = _STOP if self._stop is None else _START
+        asked = self._ask if self._stop is None else _START
         silent = "No samples come from the left sensor." if self._stillness.is_silent else ""
         sentence = " ".join(filter(None, (silent or self._told, asked)))
         self._view = replace(

@@ -214,7 +214,8 @@ class Setup:
 
     def set_handedness(self, name: str, handedness: Handedness) -> str:
         """Note which hand shows the gestures. Returns why not, or empty."""
-        why_not = self._desk.people.why_not(name)
+        people = self._desk.people
+        why_not = people.why_not(name) or people.why_not_hand(name)
         if not why_not:
             self._wishes.put(lambda desk: desk.set_handedness(name, handedness))
         return why_not

@@ -25,24 +25,26 @@ _FULL_G: Final = 1.0
 _MIN_ROWS: Final = 20
 """Fewer samples within the span say nothing about a movement."""
 
-ASK: Final = "Shake the sensor on your LEFT arm"
-
 
 class Shake:
     """Follows both sensors until one moves clearly and the other does not. Owned by one thread.
 
     Args:
         now_s: When it begins, monotonic clock.
+        arm: Where the sensor is worn that is to be shaken, the one that starts and stops: ``left``,
+            or ``right`` of a left-handed person.
 
     Attributes:
         view: For the window.
         shaken: Which sensor it was, as they are assigned now; None until it is decided.
     """
 
-    def __init__(self, now_s: float) -> None:
+    def __init__(self, now_s: float, arm: str = "left") -> None:
+        self._arm, self._other = arm, "right" if arm == "left" else "left"
+        self._ask = f"Shake the sensor on your {arm.upper()} arm."
         self._began_s = now_s
         self._rows = {side: np.zeros((0, 4)) for side in Side}
-        self.view = ShakeView(is_on=True, sentence=f"{ASK}.")
+        self.view = ShakeView(is_on=True, sentence=self._ask)
         self.shaken: Side | None = None
 
     def step(self, now_s: float, left: F64, right: F64) -> None:
@@ -78,16 +80,17 @@ class Shake:
 
     def _sentence(self, shakes: dict[Side, float], now_s: float) -> str:
         if self.shaken is Side.LEFT:
-            return "That is the left sensor: they are assigned rightly."
+            return "That is the sensor that starts and stops: they are assigned rightly."
         if self.shaken is Side.RIGHT:
-            return "That was the right sensor: the two are swapped now."
+            return "That was the sensor for gestures: the two are swapped now."
         if now_s - self._began_s >= SPAN_S:
             for side, shake_g in shakes.items():
                 if np.isnan(shake_g):
-                    return f"The {side.value} sensor sends nothing: see what its card advises."
+                    arm = self._arm if side is Side.LEFT else self._other
+                    return f"The {arm} arm's sensor sends nothing: see what its card advises."
         if all(shake_g > STILL_G for shake_g in shakes.values()):
-            return "Both move: keep your right arm still, and shake the left one."
-        return f"{ASK}."
+            return f"Both move: keep your {self._other} arm still, and shake the {self._arm} one."
+        return self._ask
 
 
 def _decide(shakes: dict[Side, float]) -> Side | None:

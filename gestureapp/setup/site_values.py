@@ -117,7 +117,8 @@ class PersonRow:
         handedness: Theirs.
         n_takes: Good takes of all gestures.
         model: Their model in words, or that there is none.
-        postures: Their left arm's postures in words, or that the built-in ones are used.
+        postures: Their postures in words, or that the built-in ones are used.
+        trouble: Why what is kept of them cannot be used; empty when it can.
     """
 
     name: str
@@ -126,3 +127,4 @@ class PersonRow:
     n_takes: int
     model: str
     postures: str
+    trouble: str = ""

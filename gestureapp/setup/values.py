@@ -80,6 +80,8 @@ class SensorCard:
             link too slow for the trip level. Empty when nothing is against it.
         remedy: What to do about that.
         act: The button that does it; ``NONE`` when no button can.
+        arm: On which arm it is worn, if not on the side's own: a left-handed person wears them the
+            other way round.
     """
 
     side: Side
@@ -96,6 +98,12 @@ class SensorCard:
     problem: str = ""
     remedy: str = ""
     act: Remedy = Remedy.NONE
+    arm: str = ""
+
+    @property
+    def worn(self) -> str:
+        """Where it is worn, in a word: the side's own arm, but for a left-handed person."""
+        return self.arm or self.side.value
 
 
 @dataclass(frozen=True, slots=True)
@@ -259,7 +267,7 @@ class LevelView:
 
 @dataclass(frozen=True, slots=True)
 class PosturesView:
-    """The left arm's postures of the person.
+    """The person's postures of the arm that starts and stops.
 
     Attributes:
         person: Whose; empty when nobody is chosen.
@@ -273,6 +281,9 @@ class PosturesView:
         least_margin_deg: Less cannot be armed with.
         outcome: Passed: kept. Failed: why not.
         wall_s: When they were recorded; 0 when the built-in ones are used.
+        arm: On which arm that is: ``left``, or ``right`` of a left-handed person.
+        problem: Why they must not be armed with; empty when they may.
+        remedy: What to do about that.
     """
 
     person: str = ""
@@ -286,3 +297,6 @@ class PosturesView:
     least_margin_deg: float = 5.0
     outcome: Outcome = field(default_factory=Outcome)
     wall_s: float = 0.0
+    arm: str = "left"
+    problem: str = ""
+    remedy: str = ""

@@ -108,6 +108,17 @@ def test_a_wrong_protocol_shows_what_came(bench: SetupBench):
     assert "another protocol" in bench.card().advice[0]
 
 
+def test_sensors_in_use_are_listed_when_nothing_else_is_found(bench: SetupBench):
+    bench.desk.find_sensors()
+    bench.run(0.1)
+    finding = bench.picture.finding
+    assert finding.sentence.startswith("2 sensors are in use already. No other port is free")
+    assert [found.port.url for found in finding.found] == [
+        bench.sensors[side].port.url for side in Side
+    ]
+    assert all("Hz; in use" in found.text for found in finding.found)
+
+
 def test_silence_is_told_from_a_missing_port(bench: SetupBench):
     bench.sensors[L].is_on = False
     bench.run(2.5)

@@ -9,7 +9,7 @@ import pytest
 
 from gestureapp.cell.controls import SETUP_OPEN
 from gestureapp.config import PersonSettings, SensorSettings, Settings
-from gestureapp.recording.people import list_people, make_person_folder
+from gestureapp.recording.people import list_people, make_person_folder, person_folder
 from gestureapp.recording.person_profile import (
     Handedness,
     PersonProfile,
@@ -166,6 +166,62 @@ def test_a_person_is_chosen_and_noted(started: Started):
     assert started.setup.set_handedness("Bea", Handedness.LEFT) == ""
     started.wait(lambda: started.setup.people()[-1].handedness is Handedness.LEFT)
     assert load_profile(started.data, "Bea")[0].handedness is Handedness.LEFT
+
+
+def damage(started: Started, person: str) -> Path:
+    """Postures that were recorded, in a file that is damaged since."""
+    own = LeftPostures((0.0, 0.0, 1.0), (-1.0, 0.0, 0.0))
+    save_profile(started.data, person, PersonProfile(Handedness.LEFT, own, 1.8e9))
+    file = person_folder(started.data, person) / "profile.json"
+    file.write_text(file.read_text().replace("left-handed", "right-handed"))
+    started.setup.choose_person(person)
+    started.wait(lambda: started.setup.snapshot().postures.person == person)
+    return file
+
+
+def test_a_damaged_profile_is_not_replaced_by_noting_the_hand(started: Started):
+    file = damage(started, "Bea")
+    content = file.read_bytes()
+    started.wait(lambda: bool(started.setup.people()))
+    for _ in range(2):
+        assert "Bea's profile.json is damaged" in started.setup.set_handedness(
+            "Bea", Handedness.LEFT
+        )
+    started.setup.look(True)
+    assert file.read_bytes() == content
+    view = started.setup.snapshot().postures
+    assert view.problem.startswith("Bea's profile.json is damaged")
+    assert "Setup, step Calibrate" in view.remedy
+    assert started.cell.postures[-1][1:] == (view.problem, view.remedy)
+    started.setup.forget_postures()
+    started.wait(lambda: started.setup.snapshot().postures.problem == "")
+    started.wait(lambda: any("set aside; Bea uses the built-in" in t for t in started.cell.told))
+    assert file.with_name("profile.damaged-1.json").read_bytes() == content
+    started.wait(lambda: started.setup.set_handedness("Bea", Handedness.LEFT) == "")
+
+
+def test_the_thread_refuses_the_hand_of_a_damaged_profile_too(started: Started):
+    file = damage(started, "Bea")
+    content = file.read_bytes()
+    assert "is damaged" in started.setup._desk.people.set_handedness("Bea", Handedness.LEFT)
+    assert file.read_bytes() == content
+    assert "handedness not noted" in started.cell.told[-1]
+
+
+def test_a_left_handed_person_is_asked_by_the_arm_that_wears_it(started: Started):
+    save_profile(started.data, "Bea", PersonProfile(Handedness.LEFT))
+    started.setup.choose_person("Bea")
+    started.wait(lambda: started.setup.snapshot().postures.person == "Bea")
+    picture = started.setup.snapshot()
+    assert (picture.left.worn, picture.right.worn, picture.postures.arm) == (
+        "right",
+        "left",
+        "right",
+    )
+    started.setup.begin_shake()
+    started.wait(lambda: "on your RIGHT arm" in started.setup.snapshot().shake.sentence)
+    started.setup.begin_postures()
+    started.wait(lambda: "with the right arm" in started.setup.snapshot().postures.sentence)
 
 
 def test_a_name_that_only_looks_different_is_not_a_new_person(started: Started):

@@ -25,7 +25,7 @@ def shaken(left_g: float, right_g: float, span_s: float = 3.0) -> Shake:
 @pytest.mark.parametrize(
     ("left_g", "right_g", "side", "words"),
     [
-        (0.8, 0.0, Side.LEFT, "That is the left sensor"),
+        (0.8, 0.0, Side.LEFT, "That is the sensor that starts and stops"),
         (0.0, 0.8, Side.RIGHT, "swapped now"),
         (0.8, 0.8, None, "Both move"),
         (0.1, 0.02, None, "Shake the sensor on your LEFT arm"),
@@ -37,6 +37,16 @@ def test_who_is_shaken(left_g: float, right_g: float, side: Side | None, words: 
     assert shake.shaken is side
     assert words in shake.view.sentence
     assert shake.view.is_on is (side is None)
+
+
+def test_a_left_handed_person_shakes_the_right_arm():
+    shake = Shake(0.0, "right")
+    assert shake.view.sentence == "Shake the sensor on your RIGHT arm."
+    for tick in range(100):
+        now_s = 0.02 * (tick + 1)
+        times_s = np.array([now_s - 0.01, now_s])
+        shake.step(now_s, rows_of(times_s, 0.8, tick), rows_of(times_s, 0.8, tick + 9999))
+    assert "keep your left arm still, and shake the right one" in shake.view.sentence
 
 
 def test_the_bars_show_who_moves():
@@ -52,7 +62,7 @@ def test_a_sensor_that_is_not_heard_decides_nothing():
         times_s = np.array([now_s - 0.01, now_s])
         shake.step(now_s, rows_of(times_s, 1.0, tick), NOTHING)
     assert shake.shaken is None
-    assert "right sensor sends nothing" in shake.view.sentence
+    assert "right arm's sensor sends nothing" in shake.view.sentence
 
 
 def test_nobody_shakes_for_ever():

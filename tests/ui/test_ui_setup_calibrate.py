@@ -169,6 +169,34 @@ def test_the_built_in_postures_can_be_used_again(room):
     assert not room.button("forgetPostures").isEnabled()
 
 
+def test_a_damaged_profile_is_said_and_can_be_given_up(room):
+    room.press("calibratePostures")
+    problem, remedy = "Ana's profile.json is damaged", "record the postures anew"
+    said = f"{problem}: {remedy}."
+    room.show(postures=PosturesView("Ana", sentence=said, problem=problem, remedy=remedy))
+    assert room.text("posturesSentence") == said
+    assert room.button("calibratePostures").state == problem
+    assert problem in room.button("setupStepCalibrate").accessibleName()
+    room.press("forgetPostures")
+    assert room.setup.calls == ["forget_postures"]
+
+
+def test_a_left_handed_person_s_arms_are_called_as_they_are_worn(room):
+    room.show(
+        left=card(Side.LEFT, LinkState.NO_DATA, arm="right"),
+        right=card(Side.RIGHT, arm="left"),
+        postures=PosturesView("Ana", arm="right"),
+    )
+    assert room.button("calibrate_left").text() == "Right arm's sensor"
+    room.press("calibratePostures")
+    assert (
+        room.text("posturesSentence") == "No data from the right arm's sensor: see Sensors first."
+    )
+    room.press("setupStepSensors")
+    assert room.text("leftSensorTitle") == "Right arm: start and stop"
+    assert room.text("rightSensorTitle") == "Left arm: gestures"
+
+
 def test_postures_need_a_person_and_the_left_sensor(room):
     room.press("calibratePostures")
     room.show(left=card(Side.LEFT, LinkState.NO_DATA))
