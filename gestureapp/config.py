@@ -200,8 +200,9 @@ class PersonSettings:
     """Whose arms these are.
 
     Attributes:
-        name: As shown in the window.
-        model: The person's model file; None when there is none yet.
+        name: As shown in the window. A change is used from the next start on.
+        model: The person's model file; None when there is none yet. A change is used from the next
+            start on.
     """
 
     name: str = ""

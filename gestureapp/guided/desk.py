@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Final
 
 from gestureapp.clock import Clock
-from gestureapp.config import N_TAKES_RANGE, TrainingSettings
+from gestureapp.config import N_TAKES_RANGE
 from gestureapp.errors import RecordingError
 from gestureapp.guided.arms import Arms, SensedCell
 from gestureapp.guided.heard import LastHeard
@@ -31,7 +31,6 @@ class Desk:
     Args:
         cell: Whose sensors.
         data: The data folder.
-        settings: How takes are recorded.
         clock: Monotonic seconds.
         wall_clock: Seconds since the epoch.
         chance: Decides in which order gestures are tried.
@@ -45,7 +44,6 @@ class Desk:
         self,
         cell: SensedCell,
         data: Path,
-        settings: TrainingSettings,
         clock: Clock,
         wall_clock: Clock,
         chance: random.Random | None = None,
@@ -53,7 +51,8 @@ class Desk:
         self._data = data
         self._chance = chance or random.Random()
         self._clock, self._wall_clock = clock, wall_clock
-        self._arms = Arms(cell)
+        self._cell, self._arms = cell, Arms(cell)
+        self._settings = settings = cell.settings.training
         self._plan = Plan(Pace.HANDS_FREE, settings.beat_s, settings.n_takes)
         self.sitting: Sitting | None = None
         self._test: LiveTest | None = None
@@ -73,6 +72,7 @@ class Desk:
     def step(self) -> None:
         """One tick: take what has come, let time pass, draw the picture."""
         now_s = self._clock()
+        self._follow_settings()
         news = self._arms.step(now_s)
         if self.sitting is not None:
             self.sitting.step(now_s, self._wall_clock(), news.postures)
@@ -192,6 +192,15 @@ class Desk:
         if self._model is not None and live is not None:
             problem = self._model.keep(live.evaluation, self._wall_clock())
             self._tried = replace(test.view, text=problem or test.view.text)
+
+    def _follow_settings(self) -> None:
+        """Record as the settings say, once they have changed; until then as the window does."""
+        before, self._settings = self._settings, self._cell.settings.training
+        now = self._settings
+        if now.beat_s != before.beat_s:
+            self.set_pace(self._plan.pace, now.beat_s)
+        if now.n_takes != before.n_takes:
+            self.set_wanted(now.n_takes)
 
     def _set_plan(self, plan: Plan) -> None:
         self._plan = plan

@@ -56,7 +56,7 @@ class Guided:
         on_ended: Callable[[str], None] = lambda text: None,
     ) -> None:
         self._data = data
-        self._desk = Desk(cell, data, cell.settings.training, clock, wall_clock)
+        self._desk = Desk(cell, data, clock, wall_clock)
         self._wishes: queue.SimpleQueue[Wish] = queue.SimpleQueue()
         self._worker = Worker("guided training", self._run, lambda error: on_ended(_ended(error)))
 

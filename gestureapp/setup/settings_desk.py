@@ -10,7 +10,7 @@ import time
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any, Final, get_type_hints
+from typing import Final, get_type_hints
 
 from gestureapp.clock import Clock, monotonic
 from gestureapp.config import Settings
@@ -31,6 +31,15 @@ from gestureapp.settings_text import about, allowed, choices
 from gestureapp.settings_values import WrongType, converted, plain
 from gestureapp.settings_words import shown, unit_of
 from gestureapp.setup.lock import Lock, hash_pin, why_no_pin
+from gestureapp.setup.settings_changes import (
+    LATER,
+    changed,
+    new_findings,
+    told,
+    values_of,
+    waits,
+    with_values,
+)
 from gestureapp.setup.site_values import LockView, SettingRow
 
 LOCKED: Final = "locked: give the PIN first"
@@ -87,7 +96,7 @@ class SettingsDesk:
         self._mutex = threading.Lock()
         self._contents = self._all_contents()
         self._layers = self._read()
-        self._used = settings
+        self._used = self._started = settings
         self._unkept: frozenset[str] = frozenset()
         pin = self._layers.pin
         self._lock = Lock(clock, pin.pin_hash, str(pin.origin))
@@ -137,7 +146,7 @@ class SettingsDesk:
             self._unkept -= changes.keys()
             self._contents = self._all_contents()
             self._rows = self._drawn()
-            for line in _told(before, self._used):
+            for line in told(before, self._used):
                 self._tell(line)
             # Under the mutex: what was written last is also what is used last.
             try:
@@ -163,10 +172,10 @@ class SettingsDesk:
         if not wrong:
             return {}
         with self._mutex:
-            used = _with(self._used, changes)
+            used = with_values(self._used, changes)
             self._use(used)
             self._used = used
-            kept = _values(self._layers.settings)
+            kept = values_of(self._layers.settings)
             unkept = {name for name, value in changes.items() if kept[name] != value}
             self._unkept = (self._unkept - changes.keys()) | unkept
             self._rows = self._drawn()
@@ -249,10 +258,10 @@ class SettingsDesk:
             layers = self._read({self._user: new})
         except ConfigError as error:
             return _Trial(dict.fromkeys(changes, _in_words(error)))
-        wrong = _new_findings(self._layers.findings, layers.findings)
+        wrong = new_findings(self._layers.findings, layers.findings)
         wrong |= self._not_taken(changes, layers)
-        settings = _changed(self._used, self._layers.settings, layers.settings, changes)
-        wrong |= _new_findings(check_settings(self._used), check_settings(settings))
+        settings = changed(self._used, self._layers.settings, layers.settings, changes)
+        wrong |= new_findings(check_settings(self._used), check_settings(settings))
         if not wrong:
             try:
                 self._check(settings)
@@ -296,7 +305,7 @@ class SettingsDesk:
         if contents == self._contents:
             return
         now = self._read()
-        before, after = _values(self._layers.settings), _values(now.settings)
+        before, after = values_of(self._layers.settings), values_of(now.settings)
         strange = [n for n in after if after[n] != before[n] and bears_on_motion(n)]
         if strange:
             reason = (
@@ -304,7 +313,7 @@ class SettingsDesk:
                 "to use that"
             )
             raise ConfigError("settings file", str(self._user), reason)
-        self._used = _changed(self._used, self._layers.settings, now.settings)
+        self._used = changed(self._used, self._layers.settings, now.settings)
         self._layers, self._contents = now, contents
         self._rows = self._drawn()
 
@@ -329,7 +338,7 @@ class SettingsDesk:
             replace_settings(file, old, new, self._wall_clock)
 
     def _drawn(self) -> tuple[SettingRow, ...]:
-        from_files = _values(self._layers.settings)
+        from_files = values_of(self._layers.settings)
         return tuple(
             self._row(name, owner, value, is_given=value != from_files[name])
             for name, owner, value in named_values(self._used)
@@ -358,49 +367,9 @@ class SettingsDesk:
     def _origin_words(self, name: str, is_given: bool) -> str:
         if name in self._unkept:
             return str(_NOT_KEPT)
-        return "given at the start" if is_given else str(self._layers.origins[name])
-
-
-def _values(settings: Settings) -> dict[str, Any]:
-    return {name: value for name, _, value in named_values(settings)}
-
-
-def _changed(
-    used: Settings, before: Settings, after: Settings, wishes: Mapping[str, object] | None = None
-) -> Settings:
-    """The used settings with what differs between two readings of the files.
-
-    What is wished for is taken even where the files say so already: something else may be in use,
-    as with a demo, which is not started from its files.
-    """
-    old, new = _values(before), _values(after)
-    given = {name for name, value in (wishes or {}).items() if value is not None}
-    return _with(used, {n: new[n] for n in new if new[n] != old[n] or n in given})
-
-
-def _with(used: Settings, values: Mapping[str, object]) -> Settings:
-    """The used settings with these values, by dotted name."""
-    for name, value in values.items():
-        table, _, key = name.partition(".")
-        used = replace(used, **{table: replace(getattr(used, table), **{key: value})})
-    return used
-
-
-def _new_findings(
-    before: Sequence[SettingsFinding], after: Sequence[SettingsFinding]
-) -> dict[str, str]:
-    known = {(finding.setting, finding.text) for finding in before}
-    new = [finding for finding in after if (finding.setting, finding.text) not in known]
-    return {finding.setting: finding.cause or finding.text for finding in new}
-
-
-def _told(before: Settings, after: Settings) -> list[str]:
-    old, new = _values(before), _values(after)
-    return [
-        f"settings: {name} {shown(plain(old[name]))} -> {shown(plain(new[name]))} by the window"
-        for name in new
-        if new[name] != old[name]
-    ]
+        words = "given at the start" if is_given else str(self._layers.origins[name])
+        is_later = waits(name) and values_of(self._used)[name] != values_of(self._started)[name]
+        return f"{words}{LATER}" if is_later else words
 
 
 def _in_words(error: ConfigError) -> str:

@@ -6,7 +6,8 @@ from gestureapp.cell.controls import CellControls
 from gestureapp.config import Settings
 from gestureapp.sensing.values import Side
 
-_TABLES: Final = ("site", "robot", "joints")
+_TABLES: Final = ("site", "robot", "joints", "training")
+"""Sensors have a call of their own; whose arms these are holds from the next start on."""
 
 
 class SettingsUse:

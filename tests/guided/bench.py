@@ -88,7 +88,6 @@ class Bench:
         self.desk = Desk(
             self.arms,
             data,
-            self.arms.settings.training,
             lambda: self.now_s,
             lambda: WALL_S + self.now_s,
         )

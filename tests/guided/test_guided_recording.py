@@ -3,6 +3,7 @@
 import itertools
 import math
 from contextlib import closing
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -47,6 +48,20 @@ def test_a_batch_by_rhythm_counts_in_and_takes_ten_on_the_beat(bench):
     steps = {round(b.wall_s - a.wall_s, 6) for a, b in itertools.pairwise(takes)}
     assert steps == {1.5}
     assert takes[0].wall_s == pytest.approx(WALL_S + begin_s + 3.0, abs=0.02)
+
+
+def test_changed_settings_are_used_at_once_and_only_they(bench):
+    def shown() -> tuple[int, Pace, float]:
+        return bench.picture.progress[0].wanted, bench.picture.pace, bench.picture.beat_s
+
+    bench.desk.open("Ana")
+    bench.desk.set_pace(Pace.RHYTHM, 1.5)
+    bench.arms.settings = replace(bench.arms.settings, training=TrainingSettings(n_takes=11))
+    bench.tick()
+    assert shown() == (11, Pace.RHYTHM, 1.5)
+    bench.arms.settings = replace(bench.arms.settings, training=TrainingSettings(11, 2.5))
+    bench.tick()
+    assert shown() == (11, Pace.RHYTHM, 2.5)
 
 
 def test_a_batch_hands_free_takes_ten_by_the_left_arm(bench):

@@ -327,3 +327,13 @@ def test_half_a_character_is_refused_before_anything_is_written(bench: Bench, na
     assert list(wrong) == [name]
     assert "\n" not in wrong[name]
     assert not bench.user.exists()
+
+
+def test_whose_arms_these_are_is_said_to_be_used_at_the_next_start(bench: Bench):
+    desk = bench.opened()
+    assert row(desk, "person.name").about.endswith("A change is used from the next start on.")
+    assert desk.change_settings({"person.name": "Ana", "training.n_takes": 11}) == {}
+    assert row(desk, "person.name").origin.endswith(", used from the next start on")
+    assert "next start" not in row(desk, "training.n_takes").origin
+    assert bench.cell.told[0].endswith("'Ana' by the window, used from the next start on")
+    assert "next start" not in row(bench.opened(), "person.name").origin

@@ -255,6 +255,11 @@ def test_a_robot_s_address_is_used_and_remembered(started: Started):
     started.wait(lambda: started.setup.snapshot().robot.address == "192.0.2.9:10040")
 
 
+def test_changed_settings_of_the_training_are_used(started: Started):
+    assert started.setup.change_settings({"training.n_takes": 11}) == {}
+    assert [settings.training.n_takes for settings in started.cell.used] == [11]
+
+
 @pytest.mark.logs_errors
 def test_a_thread_that_ended_leaves_no_sensor_fit(tmp_path: Path):
     started = Started(tmp_path)
