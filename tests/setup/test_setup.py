@@ -125,8 +125,10 @@ def test_sensors_of_a_named_file_are_swapped_as_often_as_it_is_asked_for(named: 
         named.setup.swap_sensors()
         named.wait(lambda n=n_done: named.cell.told.count("left and right sensor are swapped") == n)
         assert (named.cell.settings.left.port, named.cell.settings.right.port) == (left, right)
-        trouble = named.setup.snapshot().trouble
-        assert ("not remembered" in trouble) == (left == "loop://?r"), trouble
+        is_named = left == "loop://?l"
+        named.wait(
+            lambda fine=is_named: ("not remembered" in named.setup.snapshot().trouble) != fine
+        )
     assert named.cell.settings.right.protocol == "adxl330"
 
 
