@@ -11,7 +11,7 @@ from typing import Any, Final, get_args, get_origin, get_type_hints
 
 from gestureapp.config import KeepOutSettings, RobotSettings
 from gestureapp.settings_check import RANGES, wrong_in_keep_out
-from gestureapp.settings_words import shown
+from gestureapp.settings_words import shown, written
 
 BOX: Final = '{ name = "…", low_mm = [x, y, z], high_mm = [x, y, z] }'
 """How a box to keep out of is written."""
@@ -129,5 +129,5 @@ def did_you_mean(key: str, known: Sequence[str]) -> str:
 
 def short(value: object) -> str:
     """A name or value as it may stand in a line: printable, at most 60 characters."""
-    text = value if isinstance(value, str) and value.isprintable() else repr(value)
+    text = value if isinstance(value, str) and value.isprintable() else written(value)
     return text if len(text) <= 60 else f"{text[:57]}…"

@@ -38,8 +38,16 @@ def shown(value: object) -> str:
         return str(value).lower()
     if isinstance(value, Enum):
         value = value.value
-    text = repr(value.name if isinstance(value, KeepOutSettings) else value)
+    text = written(value.name if isinstance(value, KeepOutSettings) else value)
     return text if len(text) <= _SHOWN_CHARS else f"{text[: _SHOWN_CHARS - 3]}…"
+
+
+def written(value: object) -> str:
+    """``repr`` of a value, but for numbers so long that Python writes them nowhere."""
+    try:
+        return repr(value)
+    except ValueError:
+        return "a number of thousands of digits"
 
 
 def _joined(items: list[str]) -> str:

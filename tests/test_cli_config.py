@@ -96,3 +96,13 @@ def test_the_file_named_before_the_command_holds_as_well(user: Path, tmp_path: P
 def test_the_built_in_settings_can_be_had_as_a_file(capsys):
     assert cli.main(["config", "defaults"]) == cli.FINE
     assert capsys.readouterr().out == default_settings_text()
+
+
+def test_a_number_of_hundreds_of_digits_is_shown_as_one_finding(user: Path, capsys):
+    user.write_text(f"schema = 1\n[site]\ncalibration_days = {'9' * 400}\n")
+    assert cli.main(["config", "show"]) == cli.FINE
+    heard = capsys.readouterr()
+    assert heard.err == ""
+    last = heard.out.splitlines()[-1]
+    assert last.startswith(f"{user}, line 3: site.calibration_days: 999")
+    assert "… is not allowed; allowed is 1 to 730 days" in last

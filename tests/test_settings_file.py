@@ -11,6 +11,7 @@ from gestureapp.config import (
     Settings,
     SiteSettings,
 )
+from gestureapp.errors import ConfigError
 from gestureapp.settings_check import RANGES, named_values
 from gestureapp.settings_file import (
     default_settings_text,
@@ -271,3 +272,32 @@ def test_a_port_that_no_system_can_open_is_one_line_and_not_used(layer, port, wo
     assert loaded.left.port == ""
     assert (finding.setting, finding.line, finding.is_refused) == ("left.port", 3, False)
     assert words in finding.text
+
+
+@pytest.mark.parametrize("digits", ["9" * 400, "-" + "9" * 400, "0x" + "f" * 9000])
+@pytest.mark.parametrize(
+    "name",
+    [
+        "site.posture_debounce",
+        "site.calibration_days",
+        "robot.yaw_deg",
+        "robot.speed_mm_s",
+        "robot.supervision_input",
+        "robot.keep_outs",
+        "left.port",
+        "training.n_takes",
+        "new.name",
+    ],
+)
+def test_a_number_of_hundreds_of_digits_is_one_line(layer, name, digits):
+    table, _, key = name.partition(".")
+    loaded, (finding,) = read_settings([layer(_site(f"[{table}]\n{key} = {digits}"))])
+    assert loaded == Settings()
+    assert finding.line in (2, 3)
+    assert len(str(finding)) < 400
+    assert "\n" not in str(finding)
+
+
+def test_a_schema_of_hundreds_of_digits_is_one_line(layer):
+    with pytest.raises(ConfigError, match="this application reads schema 1"):
+        read_settings([layer("schema = 0x" + "f" * 9000)])
