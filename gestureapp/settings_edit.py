@@ -16,7 +16,7 @@ from gestureapp.clock import Clock
 from gestureapp.config import SCHEMA_VERSION
 from gestureapp.errors import ConfigError, RecordingError
 from gestureapp.recognition.files import mode_of, write_atomically
-from gestureapp.settings_source import bytes_if_there, parsed, text_of
+from gestureapp.settings_source import MAX_BYTES, bytes_if_there, parsed, text_of
 from gestureapp.settings_values import plain
 
 BACKUP_FOLDER: Final = "backups"
@@ -53,11 +53,21 @@ def edited(file: Path, old: bytes | None, changes: Mapping[str, object]) -> byte
         _put_plain(wanted, name, value)
     if _meaning(new) != _without_empty(wanted):
         raise _not_changed(file)
+    mark = _BOM if old is not None and old.startswith(_BOM) else b""
+    return mark + _content(file, new)
+
+
+def _content(file: Path, text: str) -> bytes:
+    """What the reader of settings files takes, and no other."""
     try:
-        return (_BOM if old is not None and old.startswith(_BOM) else b"") + new.encode()
+        content = text.encode()
     except UnicodeEncodeError as error:
         reason = "a text with half a character in it cannot be written; type it anew"
         raise ConfigError("settings file", str(file), reason) from error
+    if len(content) > MAX_BYTES - len(_BOM):
+        reason = f"would become larger than {MAX_BYTES} bytes; take comments out of it first"
+        raise ConfigError("settings file", str(file), reason)
+    return content
 
 
 def replace_settings(

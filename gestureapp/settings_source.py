@@ -7,7 +7,7 @@ from typing import Any, Final
 
 from gestureapp.errors import ConfigError
 
-_MAX_BYTES: Final = 100_000
+MAX_BYTES: Final = 100_000
 """A settings file has some thousand bytes; more is a file taken by mistake."""
 _LINE_IN_MESSAGE: Final = re.compile(r"\(at line (\d+), column \d+\)")
 _AT_END: Final = "(at end of document)"
@@ -32,12 +32,12 @@ def read_bytes(file: Path) -> bytes:
         raise ConfigError("settings file", str(file), reason)
     try:
         with file.open("rb") as stream:
-            data = stream.read(_MAX_BYTES + 1)
+            data = stream.read(MAX_BYTES + 1)
     except OSError as error:
         reason = f"cannot be read: {error.strerror or error}; check the name and the permissions"
         raise ConfigError("settings file", str(file), reason) from error
-    if len(data) > _MAX_BYTES:
-        reason = f"larger than {_MAX_BYTES} bytes; this is no settings file"
+    if len(data) > MAX_BYTES:
+        reason = f"larger than {MAX_BYTES} bytes; this is no settings file"
         raise ConfigError("settings file", str(file), reason)
     return data
 

@@ -14,7 +14,7 @@ from gestureapp.config import DriveMode, KeepOutSettings
 from gestureapp.errors import ConfigError
 from gestureapp.settings_edit import BACKUP_FOLDER, N_BACKUPS, edited, replace_settings
 from gestureapp.settings_file import read_settings
-from gestureapp.settings_source import bytes_if_there
+from gestureapp.settings_source import MAX_BYTES, bytes_if_there
 
 WHEN_S = 1.75e9
 
@@ -324,3 +324,15 @@ def test_killed_before_any_step_the_file_is_the_old_one_or_the_new_one(file: Pat
     assert len(steps) > 6
     assert steps[-1] == ["0", "new"]
     assert {tuple(step) for step in steps[:-1]} == {(str(KILLED), "old")}
+
+
+def test_a_file_never_becomes_longer_than_its_reader_takes(file: Path):
+    note = "# a note kept by hand\n"
+    file.write_text(MINE + note * ((MAX_BYTES - len(MINE) - 10) // len(note)))
+    before = file.read_bytes()
+    with pytest.raises(ConfigError, match="would become larger than 100000 bytes; take comments"):
+        write(file, {"robot.host": "10.0.0.1" * 40})
+    assert file.read_bytes() == before
+    assert not (file.parent / BACKUP_FOLDER).exists()
+    write(file, {"robot.host": None})
+    assert read_settings([file])[0].robot.host == ""
