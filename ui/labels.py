@@ -1,5 +1,7 @@
 """Labels that keep to the room they are given: one that elides, one that grows its letters."""
 
+import re
+
 from PySide6.QtCore import QSize, Qt
 from PySide6.QtGui import QFont, QFontMetrics, QPainter, QPaintEvent, QResizeEvent
 from PySide6.QtWidgets import QLabel, QSizePolicy, QWidget
@@ -27,6 +29,31 @@ class ElidedLabel(QLabel):
         )
         painter.drawText(self.contentsRect(), self.alignment(), shown)
         painter.end()
+
+
+_BREAK = "\u200b"
+_LONG_WORD = re.compile(r"\S{25,}")
+_PIECE = re.compile(r"[^/\\_.:-]{1,12}[/\\_.:-]*|[/\\_.:-]+")
+
+
+def breaking(text: str) -> str:
+    """The text with places where a long word, as a path, may go on in the next line."""
+    return _LONG_WORD.sub(lambda word: _BREAK.join(_PIECE.findall(word[0])), text)
+
+
+class BreakingLabel(QLabel):
+    """Breaks a path that is longer than its room, which else would widen all there is around it.
+
+    ``text()`` is what was set.
+    """
+
+    def setText(self, text: str) -> None:  # noqa: N802, Qt's spelling
+        """Show another text."""
+        super().setText(breaking(text))
+
+    def text(self) -> str:
+        """What was set."""
+        return super().text().replace(_BREAK, "")
 
 
 class BigWord(QLabel):
@@ -95,7 +122,7 @@ class BigText(QLabel):
 
     def __init__(self, name: str, min_px: int, max_px: int, parent: QWidget | None = None) -> None:
         super().__init__(parent)
-        self._range_px = (min_px, max_px)
+        self._range_px, self._said = (min_px, max_px), ""
         self.setObjectName(name)
         self.setTextFormat(Qt.TextFormat.PlainText)
         self.setWordWrap(True)
@@ -105,9 +132,14 @@ class BigText(QLabel):
 
     def show_text(self, text: str) -> None:
         """Show another sentence."""
-        if text != self.text():
-            self.setText(text)
+        if text != self._said:
+            self._said = text
+            self.setText(breaking(text))
             self._fit()
+
+    def text(self) -> str:
+        """What was set."""
+        return self._said
 
     def minimumSizeHint(self) -> QSize:
         """Two lines of the smallest letters, as wide as there is room."""
@@ -142,8 +174,14 @@ class BigText(QLabel):
         font.setPixelSize(size_px)
         metrics, room = QFontMetrics(font), self.contentsRect()
         flags = Qt.AlignmentFlag.AlignLeft | Qt.TextFlag.TextWordWrap
-        box = metrics.boundingRect(0, 0, room.width(), 10_000, flags.value, self.text())
-        widest = max((metrics.horizontalAdvance(word) for word in self.text().split()), default=0)
+        box = metrics.boundingRect(0, 0, room.width(), 10_000, flags.value, super().text())
+        widest = max(
+            (
+                metrics.horizontalAdvance(word)
+                for word in re.split(f"[{_BREAK}\\s]+", super().text())
+            ),
+            default=0,
+        )
         return box.height() <= room.height() and widest <= room.width()
 
 
@@ -155,7 +193,7 @@ def plain(name: str, size_px: int = LARGE_PX, is_wrapped: bool = True) -> QLabel
         size_px: Letter height.
         is_wrapped: Whether it may take several lines.
     """
-    label = QLabel()
+    label = BreakingLabel() if is_wrapped else QLabel()
     label.setObjectName(name)
     label.setTextFormat(Qt.TextFormat.PlainText)
     label.setWordWrap(is_wrapped)

@@ -1,7 +1,7 @@
 """One arm's sensor on a card: state, port, figures, live plot or advice, what is against it."""
 
 from PySide6.QtCore import Qt, Signal
-from PySide6.QtWidgets import QFrame, QHBoxLayout, QStackedWidget, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QFrame, QHBoxLayout, QSizePolicy, QStackedWidget, QVBoxLayout, QWidget
 
 from gestureapp.sensing.store import SampleStore
 from gestureapp.sensing.values import LinkState, Side
@@ -38,6 +38,7 @@ class SensorCardView(QFrame):
         self._act = Remedy.NONE
         self.setObjectName(f"{name}SensorCard")
         framed(self)
+        self.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Preferred)
         self._title = plain(f"{name}SensorTitle", LARGE_PX + 2, is_wrapped=False)
         self._mark = Mark(_STATE_PX)
         self._state = plain(f"{name}SensorState", _STATE_PX, is_wrapped=False)

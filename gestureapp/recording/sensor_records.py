@@ -144,7 +144,7 @@ def load_record(data: Path, sensor_id: str) -> tuple[SensorRecord, str]:
         if record.sensor_id != sensor_id:
             raise ValueError(f"is that of another sensor, {record.sensor_id[:40]!r}")
     except ValueError as error:
-        return nothing, f"{path}: {error}; calibrate the sensor anew"
+        return nothing, f"{path.name} {error}; calibrate the sensor anew"
     return record, ""
 
 

@@ -9,7 +9,7 @@ from typing import Final
 from gestureapp.sensing import bluetooth
 from gestureapp.sensing.port_list import SystemPort
 from gestureapp.sensing.ports import IN_USE, group_of
-from gestureapp.sensing.values import LinkState, StreamHealth
+from gestureapp.sensing.values import LinkState, Side, StreamHealth
 
 _SWITCH_ON: Final = "Out of range or off: switch the sensor on, bring it closer, charge it."
 
@@ -62,6 +62,13 @@ def advise(facts: PortFacts) -> tuple[str, ...]:
         if is_certain:
             return tuple(lines)
     return (*lines, _no_answer(facts))
+
+
+def advise_same(other: Side, health: StreamHealth) -> tuple[str, ...]:
+    """The same for a port that the other arm's sensor is on, too: no other program has it."""
+    if health.link is LinkState.RECEIVING:
+        return ()
+    return (f"This is the {other.value} arm's port: choose another one, or press Swap.",)
 
 
 def _off(facts: PortFacts) -> tuple[str, bool]:

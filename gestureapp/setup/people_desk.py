@@ -238,7 +238,7 @@ class PeopleDesk:
         try:
             words = describe_model(load_model(path), path.stem)
         except ModelError as error:
-            return str(error)
+            return f"{path.name}: {str(error).removeprefix(f'{error.path}: ')}"
         return f"{words}; {out_of_date}" if out_of_date else words
 
     def _profile(self, person: str) -> tuple[PersonProfile, str]:

@@ -4,8 +4,9 @@ from collections.abc import Callable
 from typing import Final
 
 from gestureapp.sensing.port_list import PortList, SystemPort
+from gestureapp.sensing.ports import is_same_port
 from gestureapp.sensing.values import LinkState, Side, StreamHealth
-from gestureapp.setup.advice import PortFacts, advise, gather, trouble_of
+from gestureapp.setup.advice import PortFacts, advise, advise_same, gather, trouble_of
 from gestureapp.setup.values import PortChoice
 
 LOOK_S: Final = 2.0
@@ -56,7 +57,11 @@ class PortWatch:
         self._troubles = {url: trouble_of(url) for url in self._found}
         if is_open:
             for side, (url, health) in streams.items():
-                self.advice[side] = advise(self._gather(url, health, self._found.get(url)))
+                other = Side.RIGHT if side is Side.LEFT else Side.LEFT
+                if url and is_same_port(url, streams[other][0]):
+                    self.advice[side] = advise_same(other, health)
+                else:
+                    self.advice[side] = advise(self._gather(url, health, self._found.get(url)))
 
     def port(self, url: str) -> SystemPort | None:
         """A port as the system lists it; None when it does not, or not now."""

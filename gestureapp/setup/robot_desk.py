@@ -58,7 +58,8 @@ class RobotDesk:
         """Of this controller; a stop test of another one says nothing."""
         try:
             content = read_kept(self._path, _KIND, _SCHEMA)
-        except ValueError:
+        except ValueError as error:
+            self._cell.tell(f"{_FILE} {error}: the stop test counts as not done, do it again")
             return Outcome()
         if content is None or content.get("address") != address:
             return Outcome()

@@ -39,11 +39,13 @@ class Sensors:
         self._cell, self._data, self._remember = cell, data, remember
         self._watch = watch or PortWatch()
         self.arms = {side: ArmSensor(side, cell, data) for side in Side}
-        self._sides = load_sides(data)
+        self._sides, damage = load_sides(data)
+        if damage:
+            cell.tell(damage)
         self._judged_s = 0.0
         self._asked: dict[Side, SensorSettings] = {}
         self._to_tell: list[tuple[dict[Side, SensorSettings], str]] = []
-        self.trouble = ""
+        self.trouble = damage
 
     def look(
         self,
@@ -114,7 +116,7 @@ class Sensors:
 
     def confirm(self) -> None:
         """They are assigned rightly as they are: a person has shown it."""
-        self._sides = self._seen()
+        self._sides, self.trouble = self._seen(), ""
         self._save_sides()
 
     def _why_not(self, side: Side, port: str) -> str:

@@ -60,13 +60,18 @@ def find_swapped(sides: Sides, seen: Sides) -> tuple[str, str]:
     return "", ""
 
 
-def load_sides(data: Path) -> Sides:
-    """As they were assigned last; nobody's where the file is missing or damaged."""
+def load_sides(data: Path) -> tuple[Sides, str]:
+    """As they were assigned last, and what is wrong with the file; nobody's where none is."""
     try:
         content = read_kept(data / _FILE, _KIND, _SCHEMA)
-    except ValueError:
-        return Sides()
-    return Sides() if content is None else Sides(_text(content, "left"), _text(content, "right"))
+    except ValueError as error:
+        return (
+            Sides(),
+            f"{_FILE} {error}: press Assign by shaking, else who sends first belongs there",
+        )
+    if content is None:
+        return Sides(), ""
+    return Sides(_text(content, "left"), _text(content, "right")), ""
 
 
 def save_sides(data: Path, sides: Sides) -> None:

@@ -2,11 +2,13 @@
 
 import math
 from dataclasses import replace
+from pathlib import Path
 
 import pytest
 import serial
 
 from gestureapp.cell.snapshot import CellState
+from gestureapp.config import RobotSettings, SensorSettings, Settings
 from gestureapp.recording.sensor_records import LinkRecord, SensorRecord, load_record, save_record
 from gestureapp.sensing.calibration import NOMINAL
 from gestureapp.sensing.values import LinkState, Side
@@ -117,6 +119,31 @@ def test_sensors_in_use_are_listed_when_nothing_else_is_found(bench: SetupBench)
         bench.sensors[side].port.url for side in Side
     ]
     assert all("Hz; in use" in found.text for found in finding.found)
+
+
+def test_damaged_files_are_one_line_each(tmp_path: Path):
+    data = tmp_path / "data"
+    data.mkdir()
+    for name in ("sides.json", "stop-test.json"):
+        (data / name).write_text("{")
+    at = RobotSettings(host="127.0.0.1", port=4711)
+    made = SetupBench(tmp_path, replace(Settings(), robot=at))
+    try:
+        made.desk.step()
+        assert [line.split(":")[0] for line in made.cell.told] == [
+            "sides.json is damaged",
+            "stop-test.json is damaged",
+        ]
+        assert "sides.json is damaged" in made.picture.trouble
+    finally:
+        made.close()
+
+
+def test_the_other_arms_port_is_called_so(bench: SetupBench):
+    right = bench.sensors[Side.RIGHT].port.url
+    bench.cell.use_sensor(Side.LEFT, SensorSettings(right))
+    bench.wait(lambda: any("the right arm's port" in text for text in bench.card().advice))
+    assert "press Swap" in bench.card().advice[0]
 
 
 def test_silence_is_told_from_a_missing_port(bench: SetupBench):

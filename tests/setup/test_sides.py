@@ -55,12 +55,14 @@ def test_no_sensor_is_assigned_to_both_arms(sides: Sides, side: Side, sensor_id:
 def test_a_file_that_was_cut_off_knows_nobody(tmp_path_factory: pytest.TempPathFactory, cut: int):
     folder = tmp_path_factory.mktemp("sides")
     save_sides(folder, Sides("wrist A", "wrist B"))
-    assert load_sides(folder) == Sides("wrist A", "wrist B")
+    assert load_sides(folder) == (Sides("wrist A", "wrist B"), "")
     (path,) = folder.iterdir()
     whole = path.read_bytes()
     path.write_bytes(whole[:cut])
-    assert load_sides(folder) == (Sides("wrist A", "wrist B") if cut >= len(whole) else Sides())
+    sides, damage = load_sides(folder)
+    assert sides == (Sides("wrist A", "wrist B") if cut >= len(whole) else Sides())
+    assert (damage == "") == (cut >= len(whole))
 
 
 def test_without_a_file_nobody_is_known(tmp_path: Path):
-    assert load_sides(tmp_path) == Sides()
+    assert load_sides(tmp_path) == (Sides(), "")

@@ -11,6 +11,7 @@ from PySide6.QtWidgets import (
     QLabel,
     QProgressBar,
     QPushButton,
+    QScrollArea,
     QWidget,
 )
 
@@ -91,6 +92,16 @@ def test_servo_on_works_only_while_the_servo_is_off(qtbot, window, cell):
     show(window, cell, replace(cell.shown, state=CellState.NOT_READY, robot=off, can_arm=False))
     qtbot.mouseClick(button(window, "servoButton"), Qt.MouseButton.LeftButton)
     assert cell.calls == ["servo_on"]
+
+
+def test_a_blocker_with_a_long_path_is_not_cut(window, cell):
+    path = "/home/operator/" + "a_very_long_folder-name/" * 9 + "model.onnx"
+    long = Blocker("model", f"{path}: is damaged", f"train anew, or choose another than {path}")
+    show(window, cell, replace(cell.shown, state=CellState.NOT_READY, blockers=(long,)))
+    area = window.findChild(QScrollArea, "blockerArea")
+    (row,) = window.findChild(BlockerList, "blockerList").rows
+    assert row.text == long.text
+    assert row.width() <= area.viewport().width()
 
 
 def test_servo_off_is_offered_while_the_controller_keeps_a_move(qtbot, window, cell):

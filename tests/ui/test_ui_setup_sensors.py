@@ -5,7 +5,7 @@ from dataclasses import replace
 import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QApplication, QComboBox, QProgressBar, QWidget
+from PySide6.QtWidgets import QApplication, QComboBox, QProgressBar, QScrollBar, QWidget
 
 from gestureapp.sensing.values import LinkState, Side
 from gestureapp.setup.values import (
@@ -274,6 +274,23 @@ def test_swapping_asks_for_two_sensors(room):
     assert room.setup.calls == ["swap_sensors"]
     room.show(right=card(Side.RIGHT, LinkState.NOT_CONNECTED, port=""))
     assert not room.button("swapSensors").isEnabled()
+
+
+def test_a_long_path_leaves_both_cards_as_wide_as_each_other(room):
+    path = "/home/operator/" + "a_very_long_folder-name/" * 9 + "wrist.json"
+    room.show(
+        left=card(Side.LEFT, problem=f"{path} is damaged", remedy=path, act=Remedy.CALIBRATE),
+        right=card(Side.RIGHT, LinkState.NO_DATA, name=path),
+    )
+    cards = [room.widget(f"{side.value}SensorCard") for side in Side]
+    assert abs(cards[0].width() - cards[1].width()) <= 1
+    assert room.window.width() == 1366
+    assert room.text("leftProblem") == f"{path} is damaged"
+    bar = room.window.findChildren(QScrollBar)
+    shown = [
+        one for one in bar if one.isVisible() and one.orientation() is Qt.Orientation.Horizontal
+    ]
+    assert shown == []
 
 
 def test_nothing_moves_as_a_problem_comes_and_goes(room):
