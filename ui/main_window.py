@@ -192,7 +192,7 @@ class MainWindow(QMainWindow):
     def _connect(self) -> None:
         self._slab.button.pressed.connect(self.stop)
         self._rail.chosen.connect(self.go_to)
-        self._keys = StopKeys(self.stop, self)
+        self._keys = StopKeys(self.stop, self._slab.button, self)
         app = QApplication.instance()
         if app is not None:
             app.installEventFilter(self._keys)

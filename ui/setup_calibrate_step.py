@@ -30,7 +30,7 @@ class CalibrateStep(QWidget):
             side: TaskButton(f"calibrate_{side.value}", f"{side.value.capitalize()} arm's sensor")
             for side in Side
         }
-        self._postures_button = TaskButton("calibratePostures", "Stop and start posture")
+        self._postures_button = TaskButton("calibratePostures", "Postures")
         self._six = SixPositionsPanel(setup)
         self._postures = PosturesPanel(setup)
         self._stack = PageStack("calibratePanels")

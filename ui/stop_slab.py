@@ -4,12 +4,20 @@ from collections.abc import Callable
 
 from PySide6.QtCore import QEvent, QObject, QRectF, QSize, Qt
 from PySide6.QtGui import QColor, QFont, QKeyEvent, QMouseEvent, QPainter, QPaintEvent, QPen
-from PySide6.QtWidgets import QAbstractButton, QLabel, QSizePolicy, QVBoxLayout, QWidget
+from PySide6.QtWidgets import (
+    QAbstractButton,
+    QApplication,
+    QLabel,
+    QSizePolicy,
+    QVBoxLayout,
+    QWidget,
+)
 
 from ui.theme import SMALL_PX, sized
 
 WHAT_IT_IS = "Not an emergency stop. Use the red button on the pendant or fence."
 """Always under the slab. The one place where these words belong."""
+_PRESSES = (QEvent.Type.MouseButtonPress, QEvent.Type.MouseButtonDblClick)
 STOP_KEYS = (Qt.Key.Key_Escape, Qt.Key.Key_Pause)
 
 # Dark, square and without yellow: it must not be taken for the red button of the hardware circuit.
@@ -100,19 +108,38 @@ class StopKeys(QObject):
     """Makes Esc and Pause stop from anywhere in the application, dialogs and menus included.
 
     A filter on the application, because a shortcut is silent while a modal dialog is open. The keys
-    go no further, so that nothing can take them away. Owned by the window.
+    go no further, so that nothing can take them away. Neither can an open list or menu take away a
+    press on the slab, which else would only close it. Owned by the window.
+
+    Args:
+        stop: Stops.
+        slab: A press over it stops.
+        parent: Qt's.
     """
 
-    def __init__(self, stop: Callable[[], None], parent: QObject) -> None:
+    def __init__(self, stop: Callable[[], None], slab: QWidget, parent: QObject) -> None:
         super().__init__(parent)
-        self._stop = stop
+        self._stop, self._slab = stop, slab
 
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:
-        """Take the two keys out of the stream of events."""
+        """Take the two keys, and a press over the slab, out of the stream of events."""
+        if event.type() in _PRESSES and isinstance(event, QMouseEvent):
+            return self._press(event)
         if event.type() is not QEvent.Type.KeyPress or not isinstance(event, QKeyEvent):
             return False
         if event.key() not in STOP_KEYS:
             return False
         if not event.isAutoRepeat():
             self._stop()
+        return True
+
+    def _press(self, event: QMouseEvent) -> bool:
+        if QApplication.activePopupWidget() is None or not self._slab.isVisible():
+            return False
+        at = self._slab.mapFromGlobal(event.globalPosition().toPoint())
+        if not self._slab.rect().contains(at):
+            return False
+        self._stop()
+        while (popup := QApplication.activePopupWidget()) is not None and popup.close():
+            pass
         return True

@@ -3,8 +3,17 @@
 from dataclasses import replace
 
 import pytest
-from PySide6.QtCore import QObject, Qt, QTimer, Signal
-from PySide6.QtWidgets import QApplication, QDialog, QLineEdit, QPushButton, QVBoxLayout, QWidget
+from PySide6.QtCore import QObject, QPoint, Qt, QTimer, Signal
+from PySide6.QtTest import QTest
+from PySide6.QtWidgets import (
+    QApplication,
+    QComboBox,
+    QDialog,
+    QLineEdit,
+    QPushButton,
+    QVBoxLayout,
+    QWidget,
+)
 
 from gestureapp.cell.snapshot import CellState
 from ui.stop_slab import WHAT_IT_IS, StopButton
@@ -21,6 +30,25 @@ def test_stop_acts_on_press_not_on_release(qtbot, window, cell):
     assert cell.calls == ["stop"]
     qtbot.mouseRelease(stop_button(window), Qt.MouseButton.LeftButton)
     assert cell.calls == ["stop"]
+
+
+def test_an_open_list_does_not_take_the_press_away(qtbot, window, cell):
+    combo = QComboBox(window)
+    combo.addItems(["one", "two"])
+    combo.show()
+    combo.showPopup()
+    popup = QApplication.activePopupWidget()
+    assert popup is not None
+    slab = stop_button(window)
+    beside = popup.mapFromGlobal(slab.mapToGlobal(slab.rect().topLeft()) - QPoint(20, -40))
+    over = popup.mapFromGlobal(slab.mapToGlobal(slab.rect().center()))
+    QTest.mousePress(popup, Qt.MouseButton.LeftButton, pos=beside)
+    assert cell.calls == []
+    combo.showPopup()
+    QTest.mousePress(popup, Qt.MouseButton.LeftButton, pos=over)
+    assert cell.calls == ["stop"]
+    assert QApplication.activePopupWidget() is None
+    assert combo.currentText() == "one"
 
 
 @pytest.mark.parametrize("button", [Qt.MouseButton.RightButton, Qt.MouseButton.MiddleButton])
