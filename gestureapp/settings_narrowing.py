@@ -87,6 +87,13 @@ FREE_OF_BUILT_IN: Final = ("site.drive_mode",)
 """What is built in narrows nothing here: a file may choose until the site's own has chosen."""
 
 
+def narrowed_words(name: str, limit: object) -> str:
+    """What the site's layer leaves of a number's range, in words; empty where it says nothing."""
+    if name not in NARROWER or isinstance(limit, bool) or not isinstance(limit, int | float):
+        return ""
+    return f"{NARROWER[name][1]} {limit:g}"
+
+
 def why_wider(name: str, new: object, limit: object) -> str:
     """Why a later layer may not set this value; empty when it may."""
     if name not in NARROWER:

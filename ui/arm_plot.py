@@ -13,6 +13,8 @@ from ui.labels import plain
 from ui.plots import colour_plot, still_plot, ticks
 from ui.theme import AXIS_DASHES, AXIS_NAMES, TEXT_PX, colours_of, mixed, sized
 
+BRIDGED_S = 0.3
+"""A longer time without samples is shown as what it is: nothing is drawn across it."""
 SPAN_S = 8.0
 RANGE_G = 2.5
 _MARK_PX = 4
@@ -62,6 +64,7 @@ class ArmPlot(QFrame):
         self._title = title
         self._is_alive: bool | None = None
         self._window_s: tuple[float, float] | None = None
+        self._is_anew, self._since_s = False, float("-inf")
         heading = plain(f"{name}Title", TEXT_PX, is_wrapped=False)
         heading.setText(f"{title} in g, {SPAN_S:.0f} s")
         sized(heading, TEXT_PX, is_bold=True)
@@ -111,11 +114,22 @@ class ArmPlot(QFrame):
         rows = store.tail(SPAN_S)
         rows = rows[rows[:, 0] >= now_s - SPAN_S] if len(rows) else rows
         width = max(2, int(self._plot.getViewBox().width()))
-        points = decimate(rows, SPAN_S, width)
+        points = decimate(self._newer(rows, now_s), SPAN_S, width)
         times = points[:, 0] - now_s
+        is_joined = np.append(np.diff(times) <= BRIDGED_S, False) if len(times) else times
+        connect = "all" if is_joined[:-1].all() else is_joined.astype(np.int32)
         for axis, curve in enumerate(self._curves):
-            curve.setData(times, points[:, axis + 1])
+            curve.setData(times, points[:, axis + 1], connect=connect)
         self._place_mark(now_s)
+
+    def begin_anew(self) -> None:
+        """Another sensor is shown from now on: what the one before sent is not drawn any more."""
+        self._is_anew = True
+
+    def _newer(self, rows: NDArray[np.float64], now_s: float) -> NDArray[np.float64]:
+        if self._is_anew:
+            self._is_anew, self._since_s = False, now_s
+        return rows[rows[:, 0] > self._since_s] if len(rows) else rows
 
     def mark_window(self, window_s: tuple[float, float] | None, now_s: float) -> None:
         """Mark the samples that the recogniser used; None takes the mark away."""

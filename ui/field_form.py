@@ -19,7 +19,7 @@ from ui.labels import plain
 from ui.pages import scrolled
 from ui.robot_view import FieldView
 from ui.setting_editor import SettingEditor
-from ui.setting_values import edited_robot, why_not_text
+from ui.setting_values import edited_robot, in_words, why_not_text
 from ui.settings_draft import SettingsDraft
 from ui.theme import SMALL_PX, TEXT_PX, sized
 
@@ -97,7 +97,7 @@ class SettingsForm(QWidget):
                 self._column.addWidget(editor)
                 if self._has_meaning:
                     meaning = plain(f"about_{name}", SMALL_PX)
-                    meaning.setText(self._draft.rows[name].about)
+                    meaning.setText(in_words(self._draft.rows[name].about))
                     self._column.addWidget(meaning)
                     self._column.addSpacing(4)
             self._column.addSpacing(8)

@@ -27,7 +27,7 @@ from ui.marks import Level, Mark
 from ui.operate_page import framed
 from ui.pages import scrolled
 from ui.robot_step import REFRESH_S
-from ui.theme import LARGE_PX, TEXT_PX, sized
+from ui.theme import LARGE_PX, RADIO_STYLE, TEXT_PX, sized
 
 NOBODY = "Nobody is here yet. Enter a name; takes, a model and postures come with it later."
 _NAME_PX = 20
@@ -188,6 +188,7 @@ class _Card(QFrame):
         for hand in Handedness:
             button = QRadioButton(hand.value)
             button.setObjectName(f"person{number}{hand.name.title()}")
+            button.setStyleSheet(RADIO_STYLE)
             button.clicked.connect(lambda _=False, hand=hand: self._set_hand(hand))
             self._hands.addButton(button)
             self._hand_of[hand] = button

@@ -35,7 +35,7 @@ class SensorCardView(QFrame):
     ) -> None:
         super().__init__(parent)
         self._name = name = side.value
-        self._act = Remedy.NONE
+        self._act, self._source = Remedy.NONE, ""
         self.setObjectName(f"{name}SensorCard")
         framed(self)
         self.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Preferred)
@@ -66,6 +66,9 @@ class SensorCardView(QFrame):
 
     def show_card(self, card: SensorCard, ports: tuple[PortChoice, ...]) -> None:
         """Show another moment of this sensor."""
+        if self._source not in ("", card.port):
+            self._plot.begin_anew()
+        self._source = card.port
         self._mark.show_level(link_level(card))
         say(self._title, card_title(card))
         say(self._state, link_word(card))

@@ -16,7 +16,18 @@ from PySide6.QtWidgets import (
 from gestureapp.setup.site_values import SettingRow
 from ui.labels import plain
 from ui.marks import Level, Mark
-from ui.setting_values import BOX_FORM, NEEDS_PIN, OFF, ON, Kind, caption_of, kind_of, why_not_text
+from ui.setting_values import (
+    BOX_FORM,
+    NEEDS_PIN,
+    OFF,
+    ON,
+    Kind,
+    caption_of,
+    choice_texts,
+    in_words,
+    kind_of,
+    why_not_text,
+)
 from ui.settings_draft import SettingsDraft
 from ui.theme import SMALL_PX, TEXT_PX, colours_of
 
@@ -115,7 +126,7 @@ class SettingEditor(QWidget):
         self._control.setEnabled(not row.is_locked and not row.fixed)
         self._lock.setVisible(row.is_locked or bool(row.fixed))
         self._mark.setVisible(bool(wrong))
-        self._note.setText(wrong or _note_of(row))
+        self._note.setText(in_words(wrong or _note_of(row)))
         self._control.setAccessibleDescription(self._note.text())
         colours = colours_of(self.palette())
         palette = QPalette(self.palette())
@@ -183,7 +194,7 @@ def _control_for(row: SettingRow) -> Control:
             return QCheckBox("on")
         case Kind.CHOICE:
             choice = QComboBox()
-            choice.addItems(list(row.choices))
+            choice.addItems(choice_texts(row))
             choice.setFixedWidth(_WORDS_PX)
             return choice
         case Kind.BOXES:

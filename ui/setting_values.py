@@ -36,8 +36,25 @@ _CAPTIONS: Mapping[str, str] = {
     "robot.yaw_deg": "Operator faces",
     "robot.tool_mm": "Tool point from the flange",
     "site.trip_level_s": "Watchdog's trip level",
+    "site.control_limit_s": "Control thread's limit",
+    "site.gui_limit_s": "Window's limit",
+    "site.stop_on_right_lost": "Stop if right is lost",
+    "site.rate_min_hz": "Slowest stream",
+    "site.rate_max_hz": "Fastest stream",
+    "site.posture_enter_deg": "Posture taken within",
+    "site.posture_leave_deg": "Posture left beyond",
+    "site.posture_debounce": "Samples for a posture",
+    "site.stop_seen_s": "Stop posture seen for",
+    "site.calibration_days": "Calibration holds",
+    "site.level_check_hours": "Level check holds",
+    "training.n_takes": "Takes of each gesture",
 }
 """Where the name in the file would read as an abbreviation."""
+_CHOICE_WORDS: Mapping[str, Mapping[str, str]] = {
+    "site.drive_mode": {"hold_to_run": "hold to run", "start_stop": "start and stop"},
+}
+"""What a choice is called here; a settings file has its short form."""
+_DOTTED = re.compile(r"\b(?:left|right|site|robot|joints|person|training)\.[a-z]\w*")
 _ENDINGS = re.compile(r"_(mm_s|deg_s|mm|deg|hz|s|g)$")
 
 
@@ -77,6 +94,21 @@ def caption_of(name: str) -> str:
     return words[:1].upper() + words[1:]
 
 
+def in_words(text: str) -> str:
+    """A message without the names that only a settings file has."""
+    text = _DOTTED.sub(lambda name: f"\u201c{caption_of(name[0])}\u201d", text)
+    for words in _CHOICE_WORDS.values():
+        for raw, said in words.items():
+            text = text.replace(raw, said)
+    return text
+
+
+def choice_texts(row: SettingRow) -> list[str]:
+    """What a setting may be, as it is called here."""
+    words = _CHOICE_WORDS.get(row.name, {})
+    return [words.get(choice, choice) for choice in row.choices]
+
+
 def value_text(row: SettingRow) -> str:
     """The setting's value as it is typed; ``typed_value`` gives it back."""
     match kind_of(row):
@@ -89,7 +121,8 @@ def value_text(row: SettingRow) -> str:
         case Kind.BOXES:
             return "\n".join(_box_text(_as_table(each)) for each in _items(row.value))
         case _:
-            return "" if row.value is None else str(row.value)
+            text = "" if row.value is None else str(row.value)
+            return _CHOICE_WORDS.get(row.name, {}).get(text, text)
 
 
 def typed_value(row: SettingRow, text: str) -> object:
@@ -107,6 +140,9 @@ def typed_value(row: SettingRow, text: str) -> object:
             return _numbers(text, len(_items(row.value)))
         case Kind.BOXES:
             return [_box(line) for line in text.splitlines() if line.strip()]
+        case Kind.CHOICE:
+            words = _CHOICE_WORDS.get(row.name, {})
+            return next((raw for raw, said in words.items() if said == text), text)
         case _:
             return text.strip()
 

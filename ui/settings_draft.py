@@ -8,7 +8,7 @@ from PySide6.QtCore import QObject, Signal
 from gestureapp.setup.controls import SetupControls
 from gestureapp.setup.site_values import SettingRow
 from ui.background import Background
-from ui.setting_values import NEEDS_PIN, NotReadable, caption_of, typed_value, value_text
+from ui.setting_values import NEEDS_PIN, NotReadable, caption_of, in_words, typed_value, value_text
 
 APPLIED: Final = "Applied. What bears on motion is used once nothing may move."
 APPLYING: Final = "Being applied\u2026"
@@ -113,7 +113,7 @@ class SettingsDraft(QObject):
             return f"{NEEDS_PIN} Not applied: {told}."
         if self.wrong:
             first = next(iter(self.wrong))
-            return f"Cannot be applied. {caption_of(first)}: {self.wrong[first]}"
+            return f"Cannot be applied. {caption_of(first)}: {in_words(self.wrong[first])}"
         return f"Not applied yet: {told}."
 
     def values(self) -> dict[str, object]:

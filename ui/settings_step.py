@@ -19,7 +19,7 @@ from ui.pages import scrolled
 from ui.pin_panel import PinPanel
 from ui.robot_step import REFRESH_S
 from ui.setting_editor import SettingEditor
-from ui.setting_values import caption_of
+from ui.setting_values import caption_of, in_words
 from ui.settings_draft import SettingsDraft
 from ui.settings_tree import SettingsTree
 from ui.theme import LARGE_PX, SMALL_PX, TEXT_PX, sized
@@ -151,7 +151,7 @@ class _Detail(QFrame):
         self._editor.show_draft()
         self._title.setText(caption_of(row.name))
         self._name.setText(row.name)
-        self._about.setText(row.about)
+        self._about.setText(in_words(row.about))
         self._origin.setText(_origin_text(row))
 
 

@@ -11,7 +11,7 @@ from ui.settings_draft import SettingsDraft
 from ui.theme import colours_of
 
 _MARK = 3
-_COLUMNS = ("Setting", "Value", "Comes from", "")
+_COLUMNS = ("Setting", "Value", "Comes from", "State")
 _NAME_ROLE = Qt.ItemDataRole.UserRole
 _ROW_PX = 26
 _TABLES = {
@@ -71,6 +71,7 @@ class SettingsTree(QTreeWidget):
             self._build()
         for name, item in self._items.items():
             self._fill(item, self._draft.rows[name])
+        self.setColumnHidden(_MARK, not any(i.text(_MARK) for i in self._items.values()))
 
     def _build(self) -> None:
         self.clear()

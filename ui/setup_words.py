@@ -7,6 +7,7 @@ from enum import Enum
 
 from gestureapp.cell.snapshot import Snapshot
 from gestureapp.sensing.values import LinkState, Side, StreamHealth
+from gestureapp.setup.fit import mg_words
 from gestureapp.setup.snapshot import SetupSnapshot
 from gestureapp.setup.values import (
     CalibrationView,
@@ -130,14 +131,14 @@ FIGURES = (
 def figure_texts(health: StreamHealth) -> tuple[str, ...]:
     """The figures of a stream, as named in ``FIGURES``; a dash for what is not known."""
     is_coming, battery = health.rate_hz > 0, health.battery_percent
-    unknown = "not sent" if is_coming else "\u2013"
+    charge = "not sent" if battery is None else f"{battery:.0f} %"
     return (
         f"{health.rate_hz:.0f} Hz" if is_coming else "\u2013",
         ms_text(health.jitter_s) if is_coming else "\u2013",
         ms_text(health.worst_gap_s) if health.worst_gap_s > 0 else "\u2013",
         count_text(health.n_lost),
         count_text(health.n_bad),
-        unknown if battery is None else f"{battery:.0f} %",
+        charge if is_coming else "\u2013",
     )
 
 
@@ -284,4 +285,4 @@ def sensor_task(card: SensorCard, under_way: CalibrationView) -> tuple[Level, st
 
 
 def _mg_text(mg: float) -> str:
-    return "\u2013" if math.isnan(mg) else f"{mg:.1f} mg" if mg < 10 else f"{mg:.0f} mg"
+    return "\u2013" if math.isnan(mg) else mg_words(mg)

@@ -22,6 +22,7 @@ from ui.draft_bar import heading
 from ui.hold_button import HoldButton
 from ui.labels import plain
 from ui.marks import Level, Mark
+from ui.setup_parts import check_level
 from ui.theme import LARGE_PX, TEXT_PX, sized
 
 WHAT_IT_IS = (
@@ -86,7 +87,7 @@ class StopTestPanel(QWidget):
         self._why_not.setText(f"Not possible now: {why_not}" if why_not else "")
         self._why_not.setVisible(bool(why_not))
         self._sentence.setText(_sentence_of(test))
-        self._mark.show_level(_level_of(test))
+        self._mark.show_level(_level_of(test, setup.robot.stop_test))
         self._result.setText(result_text(test, setup.robot.stop_test))
 
     def _choose(self, label: str) -> None:
@@ -152,5 +153,5 @@ def _sentence_of(test: StopTestView) -> str:
     }[test.phase]
 
 
-def _level_of(test: StopTestView) -> Level:
-    return Level.OFF if test.phase in _AT_REST else Level.BUSY
+def _level_of(test: StopTestView, last: Outcome) -> Level:
+    return check_level(last.check) if test.phase in _AT_REST else Level.BUSY

@@ -89,6 +89,21 @@ AXIS_DASHES = (Qt.PenStyle.SolidLine, Qt.PenStyle.DashLine, Qt.PenStyle.DotLine)
 """The second mark of each axis, for whoever cannot tell the colours apart."""
 
 
+RADIO_STYLE = """
+QRadioButton::indicator {
+    width: 12px; height: 12px; border-radius: 8px;
+    border: 2px solid palette(window-text); background: palette(base);
+}
+QRadioButton::indicator:disabled { border-color: palette(mid); }
+QRadioButton::indicator:checked {
+    background: qradialgradient(cx: 0.5, cy: 0.5, radius: 0.5, fx: 0.5, fy: 0.5,
+        stop: 0 palette(highlight), stop: 0.6 palette(highlight),
+        stop: 0.7 palette(base), stop: 1 palette(base));
+}
+"""
+"""Fusion draws the ring darker than the window, which in the dark scheme cannot be seen."""
+
+
 def colours_of(palette: QPalette) -> Colours:
     """The scheme a palette belongs to."""
     return DARK if palette.color(QPalette.ColorRole.Window).lightness() < 128 else LIGHT

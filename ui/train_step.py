@@ -25,7 +25,7 @@ from ui.model_words import (
     remaining_words,
     sentence,
 )
-from ui.theme import LARGE_PX, TEXT_PX, sized
+from ui.theme import LARGE_PX, RADIO_STYLE, TEXT_PX, sized
 from ui.training_result import TrainingResultView
 
 _LEVELS = {
@@ -130,6 +130,7 @@ class TrainStep(QWidget):
         layout.setSpacing(2)
         for number, preset in enumerate(PRESET_WORDS):
             button = QRadioButton(PRESET_WORDS[preset])
+            button.setStyleSheet(RADIO_STYLE)
             button.setObjectName(f"preset_{preset.value}")
             button.setAccessibleName(PRESET_WORDS[preset])
             button.setChecked(preset is Preset.DEFAULT)

@@ -18,6 +18,7 @@ from gestureapp.recording.sensor_records import (
 from gestureapp.sensing.calibration import NOMINAL, Calibration
 from gestureapp.sensing.port_list import SystemPort
 from gestureapp.sensing.values import LinkState, Side, StreamHealth
+from gestureapp.setup.fit import mg_words
 from gestureapp.setup.link_test import link_problem
 from gestureapp.setup.sides import SWAPPED
 from gestureapp.setup.values import LinkTestView, Remedy, SensorCard
@@ -226,7 +227,7 @@ def calibration_words(record: SensorRecord, wall_s: float) -> str:
     """How a sensor was calibrated and when."""
     if not record.is_calibrated:
         return "not calibrated"
-    within = f", within {record.worst_mg:.0f} mg" if record.worst_mg else ""
+    within = f", within {mg_words(record.worst_mg)}" if record.worst_mg else ""
     return f"calibrated {day_words(record.calibrated_wall_s, wall_s)}{within}"
 
 

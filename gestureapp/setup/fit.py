@@ -211,10 +211,13 @@ def _unfit(positions: Sequence[Position], off_deg: F64, after_mg: F64) -> str:
     return ""
 
 
+def mg_words(mg: float) -> str:
+    """An acceleration as every line and page shows it: tenths of a mg below 10 mg."""
+    return f"{mg:.1f} mg" if abs(mg) < 10 else f"{mg:.0f} mg"
+
+
 def _good(worst_mg: float, off_deg: float) -> str:
-    return (
-        f"Good: within {max(1, math.ceil(worst_mg))} mg, every side flat to {off_deg:.1f} degrees."
-    )
+    return f"Good: within {mg_words(worst_mg)}, every side flat to {off_deg:.1f} degrees."
 
 
 def words_of(position: Position) -> str:

@@ -25,6 +25,7 @@ from gestureapp.settings_check import (
 )
 from gestureapp.settings_edit import NEW_FILE, as_toml, edited, replace_settings
 from gestureapp.settings_file import read_layers
+from gestureapp.settings_narrowing import narrowed_words
 from gestureapp.settings_origins import SettingsLayers
 from gestureapp.settings_source import bytes_if_there
 from gestureapp.settings_text import about, allowed, choices
@@ -96,6 +97,7 @@ class SettingsDesk:
         self._mutex = threading.Lock()
         self._contents = self._all_contents()
         self._layers = self._read()
+        self._below = values_of(read_layers(self._files[:-1], None, self._content).settings)
         self._used = self._started = settings
         self._unkept: frozenset[str] = frozenset()
         pin = self._layers.pin
@@ -340,14 +342,14 @@ class SettingsDesk:
     def _drawn(self) -> tuple[SettingRow, ...]:
         from_files = values_of(self._layers.settings)
         return tuple(
-            self._row(name, owner, value, is_given=value != from_files[name])
+            self._row(name, owner, value, value != from_files[name])
             for name, owner, value in named_values(self._used)
         )
 
     def _row(self, name: str, owner: type, value: object, is_given: bool) -> SettingRow:
         key = name.partition(".")[2]
         origin = self._layers.origins[name]
-        fixed = ""
+        fixed, left = "", narrowed_words(name, self._below[name])
         if origin.is_named:
             fixed = f"set by {origin}; change it there"
         elif is_given and not self._memory and name not in self._unkept:
@@ -357,7 +359,7 @@ class SettingsDesk:
             about=about(owner, key),
             value=plain(value),
             unit=unit_of(key),
-            allowed=allowed(owner, key),
+            allowed="; here ".join(text for text in (allowed(owner, key), left) if text),
             origin=self._origin_words(name, is_given),
             is_locked=False,
             choices=choices(owner, key),

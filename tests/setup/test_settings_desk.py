@@ -70,7 +70,7 @@ def test_every_setting_has_a_row_with_its_meaning_and_where_it_comes_from(bench:
     desk = bench.opened()
     assert [row.name for row in desk.settings()] == [n for n, _, _ in named_values(Settings())]
     speed = row(desk, "robot.speed_mm_s")
-    assert (speed.value, speed.unit, speed.allowed) == (90.0, "mm/s", "1 to 250")
+    assert (speed.value, speed.unit, speed.allowed) == (90.0, "mm/s", "1 to 250; here at most 150")
     assert (speed.origin, speed.fixed, speed.is_locked) == ("settings.toml, line 5", "", False)
     assert speed.about.startswith("Speed of a translation")
     assert row(desk, "robot.margin_mm").origin == "built-in"

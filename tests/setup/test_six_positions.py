@@ -36,7 +36,7 @@ def test_any_order_of_the_six_positions_calibrates_the_sensor(order, chunk, seed
         view = fed(machine, sensor.rest(UP[position], 2.0), chunk)
         assert sum(state is PositionState.DONE for state in states(view).values()) == n + 1
     assert (view.is_on, view.outcome.check) == (False, Check.PASSED)
-    assert view.verdict.startswith("Good: within 1 mg")
+    assert view.verdict.startswith("Good: within 0.")
     assert view.before_mg > 50.0 > 1.0 > view.worst_mg >= 0.0
     anywhere = sensor.rng.standard_normal((50, 3))
     anywhere /= np.linalg.norm(anywhere, axis=1)[:, None]

@@ -2,12 +2,14 @@
 
 from dataclasses import replace
 
+import numpy as np
 import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication, QComboBox, QProgressBar, QScrollBar, QWidget
 
-from gestureapp.sensing.values import LinkState, Side
+from gestureapp.sensing.store import SampleStore
+from gestureapp.sensing.values import LinkState, Sample, Side
 from gestureapp.setup.values import (
     Check,
     FindingView,
@@ -19,6 +21,7 @@ from gestureapp.setup.values import (
     ShakeView,
 )
 from tests.ui.setup_bench import BUSY_PORT, LEFT_PORT, SetupRoom, card, fine
+from ui.arm_plot import ArmPlot
 from ui.gap_histogram import GapHistogram
 
 RUNNING = LinkTestView(
@@ -291,6 +294,30 @@ def test_a_long_path_leaves_both_cards_as_wide_as_each_other(room):
         one for one in bar if one.isVisible() and one.orientation() is Qt.Orientation.Horizontal
     ]
     assert shown == []
+
+
+def test_the_charge_of_a_sensor_that_is_away_is_not_shown(room):
+    assert room.text("leftBattery") == "87 %"
+    away = replace(room.setup.shown.left.health, link=LinkState.NOT_CONNECTED, rate_hz=0.0)
+    room.show(left=card(Side.LEFT, health=away))
+    assert room.text("leftBattery") == "\u2013"
+
+
+def test_a_plot_bridges_no_gap_and_begins_anew_with_another_sensor(qtbot):
+    plot = ArmPlot("gapPlot", "Left arm")
+    qtbot.addWidget(plot)
+    store = SampleStore()
+    for tick in [*range(100), *range(150, 200)]:
+        store.append(Sample(tick * 0.01, tick, (0.0, 0.0, 1.0)))
+    plot.show_samples(store, 2.0, True)
+    connect = plot._curves[0].opts["connect"]
+    assert [int(at) for at in np.flatnonzero(connect == 0)] == [99, 149]
+    plot.begin_anew()
+    plot.show_samples(store, 2.0, True)
+    assert len(plot.curve(0)[0]) == 0
+    store.append(Sample(2.01, 200, (0.0, 0.0, 1.0)))
+    plot.show_samples(store, 2.02, True)
+    assert len(plot.curve(0)[0]) == 1
 
 
 def test_nothing_moves_as_a_problem_comes_and_goes(room):

@@ -111,13 +111,16 @@ def test_a_choice_and_a_switch_are_changed_together(qtbot, room):
     choose(room, "site.drive_mode")
     choice = room.window.findChild(QComboBox, "setting_site.drive_mode")
     choice.setFocus()
+    assert choice.currentText() == "hold to run"
+    assert "hold to run: the robot moves only" in room.text("settingAbout")
     QTest.keyClick(choice, Qt.Key.Key_Down)
+    assert choice.currentText() == "start and stop"
     choose(room, "site.stop_on_right_lost")
     switch = room.window.findChild(QCheckBox, "setting_site.stop_on_right_lost")
     switch.setFocus()
     QTest.keyClick(switch, Qt.Key.Key_Space)
     room.look()
-    assert "Drive mode, Stop on right lost" in room.text("settingsDraftText")
+    assert "Drive mode, Stop if right is lost" in room.text("settingsDraftText")
     apply(qtbot, room)
     assert room.setup.calls == [
         "change_settings {'site.drive_mode': 'start_stop', 'site.stop_on_right_lost': False}"
@@ -217,4 +220,4 @@ def test_what_was_typed_in_one_step_waits_there(room):
     enter(room, "setting_training.n_takes", "20")
     room.press("setupStepPeople")
     room.press("setupStepSettings")
-    assert "Not applied yet: N takes" in room.text("settingsDraftText")
+    assert "Not applied yet: Takes of each gesture" in room.text("settingsDraftText")
