@@ -92,7 +92,7 @@ class Desk:
             self.measuring.end()
         self.measuring.step(now_s, wall_s, health)
         self.sensors.look(now_s, wall_s, health, is_open=self._is_open, is_at_rest=is_at_rest)
-        self.people.follow(picture.person)
+        self.people.follow(picture.person, wall_s)
         self.picture = self._draw(picture, now_s)
 
     def close(self) -> None:

@@ -74,22 +74,30 @@ class PeopleDesk:
         self.person = ""
         self._told: tuple[LeftPostures, str, str] | None = None
         self._chosen: tuple[PersonProfile, str] = PersonProfile(), ""
+        self._angles_deg = self._site_angles_deg()
 
     @property
     def handedness(self) -> Handedness:
         """Of whoever is chosen."""
         return self._chosen[0].handedness
 
-    def follow(self, person: str) -> None:
-        """Whose arms the cell's model is for; the postures are then theirs, too."""
+    def follow(self, person: str, wall_s: float) -> None:
+        """Whose arms the cell's model is for; the postures are then theirs, too.
+
+        The site's angles may change, too: the same postures may be too close together then.
+        """
         if person != self.person or self._told is None:
             self.person = person
             self.use_postures()
             self.rows = tuple(replace(row, is_chosen=row.name == person) for row in self.rows)
+        elif self._angles_deg != self._site_angles_deg():
+            self.use_postures()
+            self.look(wall_s)
 
     def use_postures(self) -> None:
         """Give the cell the postures of whoever is chosen, as they are kept now."""
         site = self._cell.settings.site
+        self._angles_deg = self._site_angles_deg()
         profile, trouble = self._chosen = self._profile(self.person)
         postures = profile.postures or LeftPostures()
         problem, remedy = posture_problem(postures, site)
@@ -99,6 +107,11 @@ class PeopleDesk:
         if chosen != self._told:
             self._told = chosen
             self._cell.use_postures(*chosen)
+
+    def _site_angles_deg(self) -> tuple[float, float]:
+        """Within which a posture is taken and up to which it holds."""
+        site = self._cell.settings.site
+        return site.posture_enter_deg, site.posture_leave_deg
 
     def postures_view(self) -> PosturesView:
         """The chosen person's postures, while none are being recorded."""

@@ -250,6 +250,22 @@ def test_postures_go_with_the_person_and_block_when_they_lie_too_close(started: 
     assert load_profile(started.data, "Bea")[0].postures is None
 
 
+def test_postures_are_judged_anew_when_the_site_s_angles_change(started: Started):
+    own = LeftPostures((0.0, 0.0, 1.0), (-0.9510565162951535, 0.0, 0.3090169943749474))  # 72 deg
+    save_profile(started.data, "Bea", PersonProfile(postures=own, recorded_wall_s=1.8e9))
+    started.setup.look(True)
+    started.setup.choose_person("Bea")
+    started.wait(lambda: started.cell.postures[-1:] == [(own, "", "")])
+    wider = {"site.posture_enter_deg": 43.0, "site.posture_leave_deg": 44.0}
+    assert started.setup.change_settings(wider) == {}
+    started.wait(lambda: "degrees apart" in started.cell.postures[-1][1])
+    assert started.cell.postures[-1][0] == own
+    assert started.cell.postures[-1][2]
+    started.wait(lambda: any("margin -15" in row.postures for row in started.setup.people()))
+    assert started.setup.change_settings(dict.fromkeys(wider)) == {}
+    started.wait(lambda: started.cell.postures[-1] == (own, "", ""))
+
+
 def test_a_robot_s_address_is_used_and_remembered(started: Started):
     assert started.setup.choose_robot("192.0.2.9", 10040) == ""
     assert started.cell.used[-1].robot.host == "192.0.2.9"
