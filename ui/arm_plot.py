@@ -65,9 +65,9 @@ class ArmPlot(QFrame):
         self._is_alive: bool | None = None
         self._window_s: tuple[float, float] | None = None
         self._is_anew, self._since_s = False, float("-inf")
-        heading = plain(f"{name}Title", TEXT_PX, is_wrapped=False)
-        heading.setText(f"{title} in g, {SPAN_S:.0f} s")
-        sized(heading, TEXT_PX, is_bold=True)
+        self._heading = plain(f"{name}Title", TEXT_PX, is_wrapped=False)
+        self._heading.setText(f"{title} in g, {SPAN_S:.0f} s")
+        sized(self._heading, TEXT_PX, is_bold=True)
         self._plot = still_plot(f"{name}Curves")
         self._set_up_plot()
         self._curves = [self._plot.plot(skipFiniteCheck=True) for _ in AXIS_NAMES]
@@ -78,7 +78,7 @@ class ArmPlot(QFrame):
         self._note.setPos(-SPAN_S / 2, 0)
         self._plot.addItem(self._note, ignoreBounds=True)
         head = QHBoxLayout()
-        head.addWidget(heading)
+        head.addWidget(self._heading)
         head.addStretch(1)
         head.addWidget(Legend())
         layout = QVBoxLayout(self)
@@ -121,6 +121,12 @@ class ArmPlot(QFrame):
         for axis, curve in enumerate(self._curves):
             curve.setData(times, points[:, axis + 1], connect=connect)
         self._place_mark(now_s)
+
+    def show_title(self, title: str) -> None:
+        """Call it otherwise."""
+        if title != self._title:
+            self._title, self._is_alive = title, None
+            self._heading.setText(f"{title} in g, {SPAN_S:.0f} s")
 
     def begin_anew(self) -> None:
         """Another sensor is shown from now on: what the one before sent is not drawn any more."""

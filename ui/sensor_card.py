@@ -69,6 +69,7 @@ class SensorCardView(QFrame):
         if self._source not in ("", card.port):
             self._plot.begin_anew()
         self._source = card.port
+        self._plot.show_title(f"{card.worn.capitalize()} arm")
         self._mark.show_level(link_level(card))
         say(self._title, card_title(card))
         say(self._state, link_word(card))

@@ -8,7 +8,7 @@ from gestureapp.config import KeepOutSettings, RobotSettings
 from gestureapp.setup.site_values import SettingRow
 from tests.ui.setup_bench import every_setting
 from ui.facing_view import TURNS, robot_axis
-from ui.setting_values import NotReadable, edited_robot, typed_value, value_text
+from ui.setting_values import NotReadable, edited_robot, in_words, typed_value, value_text
 
 FINITE = st.floats(-1e6, 1e6).map(lambda x: float(f"{x:.6g}"))
 CORNER = st.tuples(FINITE, FINITE, FINITE)
@@ -83,3 +83,10 @@ def test_the_operators_axes_stay_right_handed(turn):
 @pytest.mark.parametrize(("turn", "axis"), [(0, "X+"), (90, "Y+"), (180, "X-"), (-90, "Y-")])
 def test_forward_is_where_the_operator_faces(turn, axis):
     assert robot_axis("X+", turn) == axis
+
+
+def test_a_message_has_the_words_of_the_fields():
+    text = "900 must be below robot.ext_radius_mm = 800; site.drive_mode is start_stop"
+    assert in_words(text) == (
+        "900 must be below \u201cOuter sphere\u201d = 800; \u201cDrive mode\u201d is start and stop"
+    )

@@ -195,6 +195,7 @@ def test_a_left_handed_person_s_arms_are_called_as_they_are_worn(room):
     room.press("setupStepSensors")
     assert room.text("leftSensorTitle") == "Right arm: start and stop"
     assert room.text("rightSensorTitle") == "Left arm: gestures"
+    assert room.text("rightSetupPlotTitle") == "Left arm in g, 8 s"
 
 
 def test_postures_need_a_person_and_the_left_sensor(room):

@@ -28,6 +28,7 @@ from gestureapp.setup.site_values import (
 from gestureapp.setup.values import Check, Outcome
 from tests.ui.setup_bench import NOW_S, SetupRoom
 from ui.facing_view import FacingView, robot_axis
+from ui.marks import Level, Mark
 
 CONNECTION, FIELD, DRIVE, STOP_TEST = range(4)
 ROWS = (
@@ -275,6 +276,7 @@ def test_the_result_is_told_with_its_date_and_what_it_is_worth(room):
     room.show(robot=RobotCard(stop_test=Outcome(Check.PASSED, text, 1.79e9)))
     assert room.text("stopTestResult").startswith(text)
     assert "2026-09-" in room.text("stopTestResult")
+    assert Level.OK in [mark.level for mark in room.widget("stopTestPanel").findChildren(Mark)]
     assert "typical of that move" in room.text("stopTestWorth")
 
 
