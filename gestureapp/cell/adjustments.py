@@ -21,7 +21,7 @@ from gestureapp.sensing.calibration import Calibration
 from gestureapp.sensing.posture import BUILT_IN
 from gestureapp.sensing.values import Side
 
-_TABLES = ("site", "robot", "joints")
+_TABLES = ("site", "robot", "joints", "training")
 """What ``use_settings`` changes; sensors and person have calls of their own."""
 
 
