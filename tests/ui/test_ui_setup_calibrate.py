@@ -125,7 +125,7 @@ def test_the_level_check_shows_its_progress_and_its_figures(room):
     assert room.text("levelOutcome") == "passed: 0.4\u00b0 from level, 3.2 mg from 1 g"
     assert not bar.isVisible()
     room.press("calibrate_right")
-    assert room.text("levelOutcome").startswith("level checked today")
+    assert room.text("levelOutcome").startswith("level, 0.4 degrees, today")
 
 
 def test_postures_are_recorded_one_after_the_other(room):
