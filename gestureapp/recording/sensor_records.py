@@ -159,7 +159,7 @@ def judge_record(record: SensorRecord, now_wall_s: float, site: SiteSettings) ->
     if not record.is_calibrated:
         return "not calibrated", _CALIBRATE
     age_s = now_wall_s - record.calibrated_wall_s
-    if not age_s >= -AHEAD_S:
+    if not -AHEAD_S <= age_s < math.inf:
         return (
             "calibrated in the future by this computer's clock",
             f"set the clock, or {_CALIBRATE}",
@@ -178,7 +178,7 @@ def _judge_level(record: SensorRecord, now_wall_s: float, site: SiteSettings) ->
     if not site.level_check_hours:
         return "", ""
     age_s = now_wall_s - (record.calibrated_wall_s if level is None else level.wall_s)
-    if not age_s >= -AHEAD_S:
+    if not -AHEAD_S <= age_s < math.inf:
         return "checked for level in the future by this computer's clock", _LEVEL
     if age_s > site.level_check_hours * _HOUR_S:
         hours, limit = math.floor(age_s / _HOUR_S), site.level_check_hours

@@ -1,10 +1,11 @@
 """What is kept of sensors and people's postures: written, damaged anywhere, judged by date."""
 
 import json
+import math
 from dataclasses import replace
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from gestureapp.config import SiteSettings
@@ -236,6 +237,8 @@ def test_a_site_that_wants_no_level_check_still_hears_of_a_failed_one():
 
 
 @given(st.floats(allow_nan=True, allow_infinity=True), st.floats(allow_nan=True))
+@example(1.0, math.inf)
+@example(-math.inf, 1.0)
 def test_no_date_at_all_makes_a_sensor_that_may_not_be_judged_ready(wall_s, now_s):
     record = replace(RECORD, calibrated_wall_s=wall_s, level=None)
     problem, _ = judge_record(record, now_s, SITE)
