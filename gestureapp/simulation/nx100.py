@@ -141,7 +141,7 @@ class Nx100Emulator:
             self._close()
 
     def wake(self) -> None:
-        """Make the loop look at the time again. Also safe from a signal handler."""
+        """Make the loop look at the time again. A signal handler may do it, too."""
         with contextlib.suppress(OSError):
             self._waker.send(b"\0")
 
