@@ -113,11 +113,10 @@ def _text(out: Path, model: "Model") -> str:
     ]
     if (found := model.cross_validation) is not None:
         lines += [f"cross-validated {found.folds}:", found.evaluation.as_table()]
-    if model.decision is not None:
-        promise, why = promise_of(found.evaluation if found is not None else None)
-        at_once, in_the_end = model.decision.early, model.decision.last
-        lines.append(f"{promise.value}; {why}")
-        lines.append(f"an answer needs {at_once:g} at once, {in_the_end:g} in the end")
+    if (promised := promise_of(model)) is not None:
+        lines.append(f"{promised[0].value}; {promised[1]}")
+    if (needs := model.decision) is not None:
+        lines.append(f"an answer needs {needs.early:g} at once, {needs.last:g} in the end")
     return "\n".join(lines)
 
 

@@ -71,9 +71,8 @@ def describe_model(model: Model, name: str = "") -> str:
         share = 100.0 * model.live.recognised / model.live.n
         live = f"tried live: {share:.0f} % of {model.live.n}"
     parts = [model.person or name, f"{len(model.labels)} gestures", live]
-    if model.decision is not None:
-        found = model.cross_validation
-        parts.append(promise_of(found.evaluation if found is not None else None)[0].value)
+    if (promise := promise_of(model)) is not None:
+        parts.append(promise[0].value)
     return ", ".join(parts)
 
 

@@ -75,11 +75,8 @@ def words_of(evaluation: Evaluation) -> tuple[str, ...]:
 
 def promise_words(model: Model) -> str:
     """Whether at most 1 in 200 answers is wrong, and on what that rests; empty for other kinds."""
-    if model.decision is None:
-        return ""
-    found = None if model.cross_validation is None else model.cross_validation.evaluation
-    promise, why = promise_of(found)
-    return f"{promise.value.capitalize()}; {why}."
+    found = promise_of(model)
+    return f"{found[0].value.capitalize()}; {found[1]}." if found is not None else ""
 
 
 def missing_words(labels: Iterable[str]) -> str:

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gestureapp.recognition.decision import BUDGET_S, EARLY, LAST
-from gestureapp.recognition.evaluation import Evaluation
+from gestureapp.recognition.model_file import Model
 from gestureapp.recognition.movement_batch import Followed
 from gestureapp.recognition.onset import GIVE_UP_S, MIN_ELAPSED_S, OLDEST_S
 
@@ -131,15 +131,18 @@ class Promise(Enum):
     UNKNOWN = "at most 1 in 200 wrong: not known"
 
 
-def promise_of(evaluation: Evaluation | None) -> tuple[Promise, str]:
-    """Whether a cross-validation speaks for it, and why in words.
+def promise_of(model: Model) -> tuple[Promise, str] | None:
+    """Whether a model's cross-validation speaks for it, and why in words; None of other kinds.
 
     The thresholds were chosen from the same takes, and none of them was anything but a gesture.
     """
-    if evaluation is None:
+    if model.decision is None:
+        return None
+    if model.cross_validation is None:
         return Promise.UNKNOWN, "no take was heard blind"
-    wrong = round(evaluation.wrong * evaluation.n)
-    n = wrong + round(evaluation.recognised * evaluation.n)
+    confusion = model.cross_validation.evaluation.confusion
+    n = int(confusion[:, :-1].sum())
+    wrong = n - int(np.trace(confusion))
     words = f"{wrong} of {n} answers to takes heard blind were wrong"
     if n < FEWEST:
         return Promise.UNKNOWN, f"{words}, and {FEWEST} are the fewest that could show it"

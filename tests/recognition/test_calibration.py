@@ -1,5 +1,7 @@
 """The early decision on tables of probabilities, and the thresholds that keep the promise."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from hypothesis import given
@@ -20,7 +22,7 @@ from gestureapp.recognition.calibration import (
 from gestureapp.recognition.decision import EARLY, LAST
 from gestureapp.recognition.evaluation import tally
 from gestureapp.recognition.hearing import hear
-from gestureapp.recognition.model_file import load_model
+from gestureapp.recognition.model_file import CrossValidation, load_model
 from gestureapp.recognition.movement_batch import follow_all, moments_at
 from gestureapp.recognition.onset_views import streams_of
 from gestureapp.recognition.window import inputs_of
@@ -80,15 +82,19 @@ def test_thresholds_keep_the_promise_or_come_as_near_as_any(n_wrong, n_takes, se
 )
 def test_the_promise_is_kept_not_shown_or_not_known(right, wrong, silent, promise):
     answers = [("X+", "X+")] * right + [("X+", "X-")] * wrong + [("X+", None)] * silent
+    validation = CrossValidation(tally(("X+", "X-"), answers), "by hand")
 
-    found, why = promise_of(tally(("X+", "X-"), answers))
+    found, why = promise_of(replace(load_model(base.BASE), cross_validation=validation))
 
     assert found is promise
     assert f"{wrong} of {right + wrong} answers" in why
 
 
 def test_nothing_heard_blind_promises_nothing():
-    assert promise_of(None)[0] is Promise.UNKNOWN
+    model = load_model(base.BASE)
+
+    assert promise_of(model)[0] is Promise.UNKNOWN
+    assert promise_of(replace(model, decision=None)) is None
 
 
 def test_few_takes_change_nothing():

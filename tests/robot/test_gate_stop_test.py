@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from gestureapp.robot.gate import TEST_MOST, Command, GateView, Limits, Proposal, decide
+from gestureapp.robot.gate import TEST_MOST, Command, Proposal, decide
 from gestureapp.robot.values import (
     Caps,
     Direction,
@@ -17,27 +17,10 @@ from gestureapp.robot.values import (
     RobotStatus,
     StopReason,
 )
-from gestureapp.robot.workspace import FieldOfOperation
+from tests.robot.gate_view import LIMITS, NOW_S
+from tests.robot.gate_view import VIEW as MOVABLE
 
-FIELD = FieldOfOperation(1200.0, 500.0, 20.0, ((120.0, 240.0), (-60.0, 60.0), (-90.0, 90.0)), 2.0)
-LIMITS = Limits(FIELD, 100.0, 10.0, 1, 0, True, 0.125, 0.2, 0.5)
-NOW_S = 64.0
-VIEW = GateView(
-    is_armed=True,
-    latch=None,
-    is_stopping=False,
-    is_releasing=False,
-    is_moving=False,
-    last_activation_id=6,
-    status=RobotStatus(0x80 | 0x40 | 0x02, 0x40),
-    status_s=NOW_S,
-    position=Position(Pose(800.0, 0.0, 300.0, 180.0, 0.0, 0.0), Posture(1), 0),
-    position_s=NOW_S,
-    left_s=NOW_S,
-    is_left_start=False,
-    is_left_stop=True,
-    is_link_open=True,
-)
+VIEW = replace(MOVABLE, is_left_start=False, is_left_stop=True)
 CAPS = Caps(20.0, 10.0)
 ANY_CAP = st.one_of(
     st.floats(allow_nan=True, allow_infinity=True), st.sampled_from([0.1, 1.0, 20.0, 20.001])
