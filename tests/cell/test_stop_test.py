@@ -172,5 +172,7 @@ def test_leaving_the_setup_ends_the_test(bench):
     bench.until(lambda s: s.state is S.MOVING)
     bench.cell.hold_arming("")
 
-    assert "setup is not open" in ended(bench).stop_test.text
-    assert_disarmed(bench, n_moves=1)
+    snapshot = ended(bench)
+    assert "setup is not open" in snapshot.stop_test.text
+    assert snapshot.state is S.STOPPED
+    assert bench.moves() == bench.n_before + 1
